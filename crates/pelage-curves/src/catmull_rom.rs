@@ -1,0 +1,153 @@
+//! Catmull-Rom curves through all their vertices, ends duplicated.
+//!
+//! Source: document 004, section 2.2.8. A strand stores its real vertices only;
+//! the phantom vertex before the first (after the last) is the first (last) once
+//! more. Everything that evaluates or exports a strand uses this one rule.
+
+use glam::Vec3;
+
+/// The four vertices that shape the piece from `points[i]` to `points[i + 1]`.
+///
+/// Panics where `i + 1` is not a vertex.
+pub fn window(points: &[Vec3], i: usize) -> [Vec3; 4] {
+    let last = points.len() - 1;
+    [
+        points[i.saturating_sub(1)],
+        points[i],
+        points[i + 1],
+        points[(i + 2).min(last)],
+    ]
+}
+
+/// Bézier control points of the piece shaped by `window`; the same curve.
+pub fn to_bezier([a, b, c, d]: [Vec3; 4]) -> [Vec3; 4] {
+    [b, b + (c - a) / 6.0, c + (b - d) / 6.0, c]
+}
+
+/// Position at `t` in 0..=1 on the piece shaped by `window`.
+pub fn position([a, b, c, d]: [Vec3; 4], t: f32) -> Vec3 {
+    let (c1, c2, c3) = (
+        (c - a) * 0.5,
+        a - b * 2.5 + c * 2.0 - d * 0.5,
+        (d - a) * 0.5 + (b - c) * 1.5,
+    );
+    b + (c1 + (c2 + c3 * t) * t) * t
+}
+
+/// Unit tangents at the vertices: the direction of `points[i + 1] - points[i - 1]`
+/// with ends duplicated. Where that difference vanishes (two neighbours of a
+/// vertex coincide) the outgoing, else the incoming edge is used; a curve without
+/// any length gets +Z.
+pub fn tangents(points: &[Vec3], tangents: &mut [Vec3]) {
+    let last = points.len().saturating_sub(1);
+    for i in 0..points.len() {
+        let (before, after) = (points[i.saturating_sub(1)], points[(i + 1).min(last)]);
+        let across = after - before;
+        let choices = [across, after - points[i], points[i] - before];
+        tangents[i] = choices
+            .into_iter()
+            .find_map(Vec3::try_normalize)
+            .unwrap_or(if i > 0 { tangents[i - 1] } else { Vec3::Z });
+    }
+}
+
+/// Smallest axis-aligned box `(min, max)` around the curve itself, without widths.
+///
+/// The extremes of each cubic are found from the roots of its derivative, so the
+/// box is tight (document 004 takes the looser box of the Bézier points).
+/// `None` for no points.
+pub fn bounds(points: &[Vec3]) -> Option<(Vec3, Vec3)> {
+    let first = *points.first()?;
+    let (mut low, mut high) = (first, first);
+    for i in 0..points.len().saturating_sub(1) {
+        let bezier = to_bezier(window(points, i));
+        low = low.min(bezier[3]);
+        high = high.max(bezier[3]);
+        // The curve cannot leave a box that holds all four Bézier points.
+        if bezier[1].cmplt(low).any()
+            || bezier[2].cmplt(low).any()
+            || bezier[1].cmpgt(high).any()
+            || bezier[2].cmpgt(high).any()
+        {
+            widen_by_extremes(window(points, i), &mut low, &mut high);
+        }
+    }
+    Some((low, high))
+}
+
+fn widen_by_extremes(window: [Vec3; 4], low: &mut Vec3, high: &mut Vec3) {
+    let [a, b, c, d] = window;
+    let linear = (c - a) * 0.5;
+    let square = (a - b * 2.5 + c * 2.0 - d * 0.5) * 2.0;
+    let cube = ((d - a) * 0.5 + (b - c) * 1.5) * 3.0;
+    for axis in 0..3 {
+        for t in roots_in_unit(cube[axis], square[axis], linear[axis]) {
+            let p = position(window, t)[axis];
+            low[axis] = low[axis].min(p);
+            high[axis] = high[axis].max(p);
+        }
+    }
+}
+
+/// Roots of `a t² + b t + c` strictly inside 0..1.
+fn roots_in_unit(a: f32, b: f32, c: f32) -> impl Iterator<Item = f32> {
+    let (a, b, c) = (a as f64, b as f64, c as f64);
+    let discriminant = b * b - 4.0 * a * c;
+    let q = -0.5 * (b + discriminant.max(0.0).sqrt().copysign(b));
+    let roots = [q / a, c / q];
+    roots
+        .into_iter()
+        .filter(move |t| discriminant >= 0.0 && *t > 0.0 && *t < 1.0)
+        .map(|t| t as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point() -> impl Strategy<Value = Vec3> {
+        prop::array::uniform3(-10.0f32..10.0).prop_map(Vec3::from)
+    }
+
+    #[test]
+    fn the_end_tangent_of_a_duplicated_end_is_half_the_first_edge() {
+        let points = [Vec3::ZERO, Vec3::X, Vec3::new(2.0, 1.0, 0.0)];
+        let bezier = to_bezier(window(&points, 0));
+        let derivative = (bezier[1] - bezier[0]) * 3.0;
+        assert!(derivative.distance(Vec3::X * 0.5) < 1e-6);
+    }
+
+    proptest! {
+        #[test]
+        fn bounds_hold_the_curve_and_touch_it(points in prop::collection::vec(point(), 2..9)) {
+            let (low, high) = bounds(&points).unwrap();
+            let (mut seen_low, mut seen_high) = (points[0], points[0]);
+            for i in 0..points.len() - 1 {
+                for k in 0..=256 {
+                    let p = position(window(&points, i), k as f32 / 256.0);
+                    seen_low = seen_low.min(p);
+                    seen_high = seen_high.max(p);
+                }
+            }
+            let slack = 1e-5 * 40.0;
+            prop_assert!((seen_low - low).min_element() > -slack);
+            prop_assert!((high - seen_high).min_element() > -slack);
+            prop_assert!((seen_low - low).max_element() < 1e-2);
+            prop_assert!((high - seen_high).max_element() < 1e-2);
+        }
+
+        #[test]
+        fn tangents_are_units_whatever_the_points(
+            points in prop::collection::vec(prop::array::uniform3(-1i8..2), 1..8)
+        ) {
+            let points: Vec<_> =
+                points.iter().map(|p| Vec3::new(p[0] as f32, p[1] as f32, p[2] as f32)).collect();
+            let mut out = vec![Vec3::ZERO; points.len()];
+            tangents(&points, &mut out);
+            for t in out {
+                prop_assert!((t.length() - 1.0).abs() < 1e-5);
+            }
+        }
+    }
+}

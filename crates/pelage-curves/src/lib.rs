@@ -1,0 +1,31 @@
+//! Space curves, and nothing about hair.
+//!
+//! A curve here is a slice of control vertices with a [`Basis`] and a [`Wrap`],
+//! read as OpenUSD reads `BasisCurves`, with one rule for end points: a curve
+//! *through* its vertices is a Catmull-Rom curve whose first and last vertex are
+//! duplicated ([`catmull_rom`]).
+//!
+//! Positions are `f32` ([`Vec3`]); lengths are measured and inverted in `f64`.
+//!
+//! ```
+//! use pelage_curves::{Vec3, Curve, Basis, Wrap};
+//!
+//! let points = [Vec3::ZERO, Vec3::X, Vec3::new(2.0, 1.0, 0.0)];
+//! let curve = Curve::new(&points, Basis::CatmullRom, Wrap::Pinned).unwrap();
+//! let even = curve.resample(4);
+//! assert_eq!(even.len(), 5);
+//! assert_eq!(even[0], points[0]);
+//! ```
+
+mod arc_length;
+mod basis;
+pub mod catmull_rom;
+mod curve;
+mod frames;
+
+pub use arc_length::ArcLength;
+pub use basis::{Basis, Wrap};
+pub use curve::{Curve, CurveError};
+pub use frames::{any_perpendicular, double_reflection};
+pub use glam;
+pub use glam::{DVec3, Vec2, Vec3};
