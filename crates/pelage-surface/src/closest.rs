@@ -56,7 +56,7 @@ impl<'a> ClosestPoint<'a> {
             } else {
                 let first = node.first_index as usize;
                 let mut children =
-                    [first, first + 1].map(|c| (distance(&self.bvh.nodes[c].aabb(), point), c));
+                    [first, first + 1].map(|c| (distance(self.bvh.nodes[c].aabb(), point), c));
                 if children[0].0 < children[1].0 {
                     children.swap(0, 1);
                 }

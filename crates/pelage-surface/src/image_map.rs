@@ -137,24 +137,18 @@ impl ImageMap {
     /// does not have reads its last one.
     pub fn sample(&self, u: f32, v: f32, channel: u32, wrap: Wrap) -> f32 {
         let channel = channel.min(self.channels - 1) as usize;
-        let corners = self.corners(u, v, wrap);
-        corners
-            .iter()
-            .map(|&(x, y, weight)| self.texel(x, y)[channel] * weight)
-            .sum()
+        self.around(u, v, wrap)
+            .blend(|x, y| self.texel(x, y)[channel])
     }
 
     /// Bilinear colour at `(u, v)`: the first three channels, or the first alone as
     /// grey where there are fewer than three.
     pub fn sample_rgb(&self, u: f32, v: f32, wrap: Wrap) -> [f32; 3] {
-        let mut rgb = [0.0; 3];
-        for (x, y, weight) in self.corners(u, v, wrap) {
-            let texel = self.texel(x, y);
-            for k in 0..3 {
-                rgb[k] += texel[if self.channels >= 3 { k } else { 0 }] * weight;
-            }
-        }
-        rgb
+        let around = self.around(u, v, wrap);
+        std::array::from_fn(|k| {
+            let channel = if self.channels >= 3 { k } else { 0 };
+            around.blend(|x, y| self.texel(x, y)[channel])
+        })
     }
 
     /// The texel that `(u, v)` falls in, unfiltered: for maps whose colours are names.
@@ -172,21 +166,37 @@ impl ImageMap {
         }
     }
 
-    /// The four texels around `(u, v)` as (column, row from the top, weight).
-    fn corners(&self, u: f32, v: f32, wrap: Wrap) -> [(u32, u32, f32); 4] {
+    fn around(&self, u: f32, v: f32, wrap: Wrap) -> Around {
         // f64: at u = 10 an f32 holds only a sixteenth of a texel of a large map.
         let x = u as f64 * self.width as f64 - 0.5;
         let y = (1.0 - v as f64) * self.height as f64 - 0.5;
         let (x0, y0) = (x.floor(), y.floor());
-        let (fx, fy) = ((x - x0) as f32, (y - y0) as f32);
-        let columns = [x0, x0 + 1.0].map(|x| wrapped(x, self.width, wrap));
-        let rows = [y0, y0 + 1.0].map(|y| wrapped(y, self.height, wrap));
-        [
-            (columns[0], rows[0], (1.0 - fx) * (1.0 - fy)),
-            (columns[1], rows[0], fx * (1.0 - fy)),
-            (columns[0], rows[1], (1.0 - fx) * fy),
-            (columns[1], rows[1], fx * fy),
-        ]
+        Around {
+            columns: [x0, x0 + 1.0].map(|x| wrapped(x, self.width, wrap)),
+            rows: [y0, y0 + 1.0].map(|y| wrapped(y, self.height, wrap)),
+            across: (x - x0) as f32,
+            down: (y - y0) as f32,
+        }
+    }
+}
+
+/// The four texels around a place and how far it lies between them.
+struct Around {
+    columns: [u32; 2],
+    rows: [u32; 2],
+    across: f32,
+    down: f32,
+}
+
+impl Around {
+    /// Written as differences so that equal texels give that very value.
+    fn blend(&self, texel: impl Fn(u32, u32) -> f32) -> f32 {
+        let row = |y| {
+            let (a, b) = (texel(self.columns[0], y), texel(self.columns[1], y));
+            a + (b - a) * self.across
+        };
+        let (a, b) = (row(self.rows[0]), row(self.rows[1]));
+        a + (b - a) * self.down
     }
 }
 
