@@ -10,6 +10,16 @@ pub enum Wrap {
     Clamp,
 }
 
+impl Wrap {
+    /// Column and row (from the top) of the texel that `uv` falls in, in an image of
+    /// `size` columns and rows.
+    pub fn texel(self, [u, v]: [f32; 2], [width, height]: [u32; 2]) -> [u32; 2] {
+        let x = (u as f64 * width as f64).floor();
+        let y = ((1.0 - v as f64) * height as f64).floor();
+        [wrapped(x, width, self), wrapped(y, height, self)]
+    }
+}
+
 /// Why pixels are no map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MapError {
@@ -153,9 +163,8 @@ impl ImageMap {
 
     /// The texel that `(u, v)` falls in, unfiltered: for maps whose colours are names.
     pub fn nearest(&self, u: f32, v: f32, wrap: Wrap) -> &[f32] {
-        let x = (u as f64 * self.width as f64).floor();
-        let y = ((1.0 - v as f64) * self.height as f64).floor();
-        self.texel(wrapped(x, self.width, wrap), wrapped(y, self.height, wrap))
+        let [x, y] = wrap.texel([u, v], [self.width, self.height]);
+        self.texel(x, y)
     }
 
     /// A map with the same size whose texels are `f` of this one's.

@@ -68,6 +68,15 @@ impl RootSampler {
         self.distribution.total()
     }
 
+    /// The centre of each piece, as a place on `mesh`: somewhere in every part of the
+    /// surface where hair can grow.
+    pub fn piece_centres(&self) -> impl Iterator<Item = SurfacePoint> {
+        self.pieces.iter().map(|&(triangle, part)| SurfacePoint {
+            triangle,
+            barycentric: self.parts[part as usize].centre(),
+        })
+    }
+
     /// Pieces of constant density.
     pub fn pieces(&self) -> usize {
         self.pieces.len()

@@ -71,7 +71,7 @@ impl Part {
         [(1.0 - u - v).max(0.0), u, v]
     }
 
-    fn centre(self) -> [f32; 3] {
+    pub(crate) fn centre(self) -> [f32; 3] {
         self.barycentric(1.0 / 3.0, 1.0 / 3.0)
     }
 }
