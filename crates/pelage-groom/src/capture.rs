@@ -3,14 +3,14 @@
 //! Depends on the plan and the hairs' indices alone (architecture.md, laws 1 and 4).
 
 use crate::clock::{Clock, Stage};
+use crate::color::ColorMix;
 use crate::locator::Near;
 use crate::plan::Plan;
 use crate::recipe::Method;
-use crate::color::ColorMix;
 use crate::stages::look::Look;
 use crate::stages::roots::{Root, root};
-use crate::stages::weights::{Share, inverse_distance, turn};
 use crate::stages::scale;
+use crate::stages::weights::{Share, inverse_distance, turn};
 
 /// Hairs that were left out, and why.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -78,13 +78,17 @@ impl Plan {
         capture.roots.clear();
         capture.dropped = Dropped::default();
         if let Some(sampler) = &self.sampler {
-            capture.roots.extend(hairs.map(|h| root(h, sampler, &self.rest, &self.groups)));
+            capture
+                .roots
+                .extend(hairs.map(|h| root(h, sampler, &self.rest, &self.groups)));
         }
         let started = clock.stop(Stage::Roots, started);
         self.weigh(capture);
         let started = clock.stop(Stage::Weights, started);
         capture.looks.clear();
-        capture.looks.extend(capture.roots.iter().map(|root| self.look(root)));
+        capture
+            .looks
+            .extend(capture.roots.iter().map(|root| self.look(root)));
         clock.stop(Stage::Maps, started);
     }
 
@@ -99,7 +103,10 @@ impl Plan {
             let root = capture.roots[i];
             let f = &self.fields;
             let factor = scale::factor(&f.scale, &f.scale_random, root.uv, self.seed, root.hair);
-            let Some(guides) = self.guides.get(root.group as usize).filter(|g| !g.is_empty())
+            let Some(guides) = self
+                .guides
+                .get(root.group as usize)
+                .filter(|g| !g.is_empty())
             else {
                 capture.dropped.without_guides += 1;
                 continue;
@@ -119,7 +126,12 @@ impl Plan {
                 if weight > 0.0 {
                     let (c, s) = turn(&guides.frames[near.guide as usize], &frame);
                     let (cosine, sine) = (weight * c, weight * s);
-                    capture.shares.push(Share { guide: near.guide, weight, cosine, sine });
+                    capture.shares.push(Share {
+                        guide: near.guide,
+                        weight,
+                        cosine,
+                        sine,
+                    });
                     length += weight * guides.lengths[near.guide as usize];
                 }
             }

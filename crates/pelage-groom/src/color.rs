@@ -48,7 +48,11 @@ impl ColorMix {
                 step[0] += 360.0;
             }
         }
-        Self { space, root: from, step }
+        Self {
+            space,
+            root: from,
+            step,
+        }
     }
 
     /// The linear RGB colour at `t`, root 0, tip 1.

@@ -19,8 +19,10 @@ pub enum PlanError {
         error: MeshError,
     },
     /// A property needs a map, but the surface has no texture coordinates.
-    #[error("{key}: reads the map {map:?}, but the surface has no UVs; \
-        add UVs to the mesh or remove the map")]
+    #[error(
+        "{key}: reads the map {map:?}, but the surface has no UVs; \
+        add UVs to the mesh or remove the map"
+    )]
     NoUvs {
         /// The property.
         key: String,
@@ -36,8 +38,10 @@ pub enum PlanError {
         map: PathBuf,
     },
     /// A density below zero.
-    #[error("roots.density: texel (column {x}, row {y} from the top) is {value}; \
-        a density must be at least 0")]
+    #[error(
+        "roots.density: texel (column {x}, row {y} from the top) is {value}; \
+        a density must be at least 0"
+    )]
     NegativeDensity {
         /// Column.
         x: u32,
@@ -76,8 +80,10 @@ pub enum PlanError {
         index: usize,
     },
     /// An interpolation group that hairs can fall in but no guide does.
-    #[error("groups: no guide grows in group {group} ({color}), whose hairs need one; \
-        add a guide there or change groups.map")]
+    #[error(
+        "groups: no guide grows in group {group} ({color}), whose hairs need one; \
+        add a guide there or change groups.map"
+    )]
     GroupWithoutGuides {
         /// Group.
         group: u32,
@@ -85,8 +91,10 @@ pub enum PlanError {
         color: String,
     },
     /// A map of groups that is no map of groups.
-    #[error("groups.map: holds more than {limit} colours; groups need flat colours, \
-        or segments listed by colour")]
+    #[error(
+        "groups.map: holds more than {limit} colours; groups need flat colours, \
+        or segments listed by colour"
+    )]
     TooManyGroups {
         /// How many are allowed.
         limit: usize,
@@ -94,7 +102,11 @@ pub enum PlanError {
 }
 
 fn count(n: usize) -> String {
-    if n == 1 { "1 guide is".into() } else { format!("{n} guides are") }
+    if n == 1 {
+        "1 guide is".into()
+    } else {
+        format!("{n} guides are")
+    }
 }
 
 fn listed(far: &[FarGuide]) -> String {

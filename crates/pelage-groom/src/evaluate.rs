@@ -105,7 +105,9 @@ impl Plan {
         out: &mut StrandBuffer,
     ) {
         scratch.frames.clear();
-        scratch.frames.extend(capture.roots.iter().map(|root| pose.frame(&root.place)));
+        scratch
+            .frames
+            .extend(capture.roots.iter().map(|root| pose.frame(&root.place)));
         for (i, frame) in scratch.frames.iter().enumerate() {
             let range = out.vertices(i);
             let points = bytemuck::cast_slice_mut(&mut out.points[range.clone()]);

@@ -32,7 +32,8 @@ pub struct Request {
 }
 
 /// Gives the surface of frame number `index` (0 for a still); `None` is the rest pose.
-pub type Poses<'a> = dyn FnMut(usize) -> Result<Option<Arc<Mesh>>, Box<dyn Error + Send + Sync>> + 'a;
+pub type Poses<'a> =
+    dyn FnMut(usize) -> Result<Option<Arc<Mesh>>, Box<dyn Error + Send + Sync>> + 'a;
 
 /// Why a run stopped.
 #[derive(Debug, thiserror::Error)]
@@ -80,7 +81,11 @@ pub fn generate(
     let mut report = Report::default();
     sink.begin(&request.info)?;
     let frames = request.info.frames.len().max(1);
-    let hairs = if plan.count() == 0 { 0..0 } else { request.hairs.clone() };
+    let hairs = if plan.count() == 0 {
+        0..0
+    } else {
+        request.hairs.clone()
+    };
     let total = hairs.end.saturating_sub(hairs.start);
     for index in 0..frames {
         let frame = request.info.frames.get(index).copied().unwrap_or(0.0);
@@ -91,7 +96,10 @@ pub fn generate(
             hairs: hairs.clone(),
             pose: pose.as_deref(),
             before: total * index as u64,
-            report: Report { clock: std::mem::take(&mut report.clock), ..Report::default() },
+            report: Report {
+                clock: std::mem::take(&mut report.clock),
+                ..Report::default()
+            },
         };
         if request.threads <= 1 {
             run.alone(sink, progress)?;
@@ -127,7 +135,13 @@ impl Worker {
         plan.capture(hairs, &mut self.capture, &mut chunk.clock);
         chunk.dropped = self.capture.dropped();
         let strands = &mut chunk.strands;
-        plan.evaluate(&self.capture, pose, &mut self.scratch, strands, &mut chunk.clock);
+        plan.evaluate(
+            &self.capture,
+            pose,
+            &mut self.scratch,
+            strands,
+            &mut chunk.clock,
+        );
     }
 }
 
@@ -142,7 +156,10 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn chunks(&self) -> u64 {
-        self.hairs.end.saturating_sub(self.hairs.start).div_ceil(CHUNK)
+        self.hairs
+            .end
+            .saturating_sub(self.hairs.start)
+            .div_ceil(CHUNK)
     }
 
     fn hairs_of(hairs: &Range<u64>, chunk: u64) -> Range<u64> {
@@ -188,8 +205,12 @@ impl Run<'_> {
                     let mut worker = Worker::default();
                     loop {
                         // A poisoned lock means that another thread panicked; stop too.
-                        let Ok(waiting) = take_empty.lock() else { return };
-                        let Ok(mut chunk) = waiting.recv() else { return };
+                        let Ok(waiting) = take_empty.lock() else {
+                            return;
+                        };
+                        let Ok(mut chunk) = waiting.recv() else {
+                            return;
+                        };
                         let number = next.fetch_add(1, Ordering::Relaxed);
                         drop(waiting);
                         if number >= chunks {
@@ -209,7 +230,9 @@ impl Run<'_> {
             let mut early = BTreeMap::new();
             let mut wanted = 0;
             while wanted < chunks {
-                let Ok((number, chunk)) = take_full.recv() else { break };
+                let Ok((number, chunk)) = take_full.recv() else {
+                    break;
+                };
                 early.insert(number, chunk);
                 while let Some(chunk) = early.remove(&wanted) {
                     self.take(wanted, &chunk, sink, progress)?;
@@ -238,6 +261,10 @@ impl Run<'_> {
         self.report.vertices += chunk.strands.points.len() as u64;
         self.report.dropped.add(&chunk.dropped);
         let done = Self::hairs_of(&self.hairs, number).end - self.hairs.start;
-        if progress(self.before + done) { Ok(()) } else { Err(GenerateError::Stopped) }
+        if progress(self.before + done) {
+            Ok(())
+        } else {
+            Err(GenerateError::Stopped)
+        }
     }
 }

@@ -48,16 +48,28 @@ struct GroupMap {
 impl Groups {
     /// One group of `segments` everywhere.
     pub fn single(segments: u32) -> Self {
-        Self { groups: vec![Group { color: None, segments: segments.max(1) }], map: None }
+        Self {
+            groups: vec![Group {
+                color: None,
+                segments: segments.max(1),
+            }],
+            map: None,
+        }
     }
 
     /// Groups by the colours of `map`, each with its number of segments.
     pub fn listed(map: &ImageMap, wrap: Wrap, segments: &[([u8; 3], u32)]) -> Self {
         let groups: Vec<Group> = segments
             .iter()
-            .map(|&(color, segments)| Group { color: Some(color), segments: segments.max(1) })
+            .map(|&(color, segments)| Group {
+                color: Some(color),
+                segments: segments.max(1),
+            })
             .collect();
-        Self { map: Some(assign(map, wrap, &groups)), groups }
+        Self {
+            map: Some(assign(map, wrap, &groups)),
+            groups,
+        }
     }
 
     /// A group for each colour found in `map`, all of `segments`.
@@ -99,8 +111,13 @@ fn assign(map: &ImageMap, wrap: Wrap, groups: &[Group]) -> GroupMap {
         (0..3).map(|k| (a[k].abs_diff(b[k]) as u32).pow(2)).sum()
     };
     let nearest = |texel: [u8; 3]| {
-        let colors = groups.iter().map(|g| distance(texel, g.color.unwrap_or([0; 3])));
-        colors.enumerate().min_by_key(|&(_, d)| d).map_or(0, |(i, _)| i as u16)
+        let colors = groups
+            .iter()
+            .map(|g| distance(texel, g.color.unwrap_or([0; 3])));
+        colors
+            .enumerate()
+            .min_by_key(|&(_, d)| d)
+            .map_or(0, |(i, _)| i as u16)
     };
     GroupMap {
         width: map.width(),
@@ -130,7 +147,11 @@ mod tests {
 
     #[test]
     fn a_texel_belongs_to_the_nearest_listed_colour() {
-        let groups = Groups::listed(&halves(), Wrap::Clamp, &[([0, 0, 255], 6), ([255, 0, 0], 12)]);
+        let groups = Groups::listed(
+            &halves(),
+            Wrap::Clamp,
+            &[([0, 0, 255], 6), ([255, 0, 0], 12)],
+        );
         assert_eq!(groups.at(Vec2::new(0.25, 0.5)), 1);
         assert_eq!(groups.at(Vec2::new(0.75, 0.5)), 0);
         assert_eq!(groups.all()[1].segments, 12);
@@ -149,7 +170,9 @@ mod tests {
         let noise = ImageMap::new(512, 1, 1, texels, false).unwrap();
         let few = Groups::found(&noise, Wrap::Clamp, 4);
         assert!(few.is_ok(), "256 grey codes at most");
-        let texels = (0..3 * 512).map(|i| (i * 37 % 256) as f32 / 255.0).collect();
+        let texels = (0..3 * 512)
+            .map(|i| (i * 37 % 256) as f32 / 255.0)
+            .collect();
         let noise = ImageMap::new(512, 1, 3, texels, false).unwrap();
         assert!(Groups::found(&noise, Wrap::Clamp, 4).is_ok_and(|g| g.all().len() <= 256));
     }

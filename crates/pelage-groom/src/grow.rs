@@ -42,7 +42,11 @@ pub(crate) fn grow(
             let root = sampler.place((x * 18_446_744_073_709_551_616.0) as u64, y);
             let frame = mesh.frame(&root);
             let phase = uniform(grow.seed, i, Channel::GuideCurl);
-            Guide { root, frame, local: shape.vertices(&frame, mesh.uv(&root), phase) }
+            Guide {
+                root,
+                frame,
+                local: shape.vertices(&frame, mesh.uv(&root), phase),
+            }
         })
         .collect())
 }
@@ -51,9 +55,7 @@ fn comb_field(grow: &Grow, fields: &FieldMaker) -> Result<CombField, PlanError> 
     Ok(match &grow.comb {
         None => CombField::Tangent,
         Some(Comb::Vector(v)) => CombField::Vector(Vec3::from(*v)),
-        Some(Comb::Map(used)) => {
-            CombField::Map(fields.image("guides.grow.comb", used)?, used.wrap)
-        }
+        Some(Comb::Map(used)) => CombField::Map(fields.image("guides.grow.comb", used)?, used.wrap),
     })
 }
 
@@ -76,7 +78,11 @@ impl CombField {
         };
         let flat = Vec3::new(local.x, local.y, 0.0);
         // 8-bit codes cannot say exactly 0.5: less than a hundredth is no direction.
-        if flat.length_squared() > 1e-4 { flat.normalize() } else { Vec3::X }
+        if flat.length_squared() > 1e-4 {
+            flat.normalize()
+        } else {
+            Vec3::X
+        }
     }
 }
 
@@ -100,7 +106,10 @@ impl Shape {
         let step = length / self.segments as f32;
         let direction = |t: f32| {
             let angle = lean * (0.5 + t);
-            (along * libm::sinf(angle) + Vec3::Z * libm::cosf(angle), angle)
+            (
+                along * libm::sinf(angle) + Vec3::Z * libm::cosf(angle),
+                angle,
+            )
         };
         let mut line = Vec3::ZERO;
         (0..=self.segments)

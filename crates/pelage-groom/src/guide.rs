@@ -22,7 +22,11 @@ impl Guide {
     /// space of `mesh` at rest.
     pub fn new(mesh: &Mesh, root: SurfacePoint, offsets: &[Vec3]) -> Self {
         let frame = mesh.frame(&root);
-        Self { root, frame, local: offsets.iter().map(|&o| frame.local(o)).collect() }
+        Self {
+            root,
+            frame,
+            local: offsets.iter().map(|&o| frame.local(o)).collect(),
+        }
     }
 
     /// The same guide with `segments + 1` vertices at equal steps of arc length along
@@ -32,7 +36,10 @@ impl Guide {
             Ok(curve) => curve.resample(segments),
             Err(_) => vec![Vec3::ZERO; segments + 1],
         };
-        Self { local, ..self.clone() }
+        Self {
+            local,
+            ..self.clone()
+        }
     }
 
     /// Length of the polygon through the vertices.
@@ -88,8 +95,7 @@ fn bind_one(
     if curve.iter().all(|&p| p == first) {
         return Err(PlanError::GuideTooShort { index });
     }
-    let (root, distance) =
-        closest.query(first).ok_or(PlanError::NoSurface)?;
+    let (root, distance) = closest.query(first).ok_or(PlanError::NoSurface)?;
     let offsets: Vec<Vec3> = curve.iter().map(|&p| p - first).collect();
     Ok((Guide::new(mesh, root, &offsets), distance))
 }

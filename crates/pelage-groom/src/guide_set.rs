@@ -23,11 +23,16 @@ pub(crate) struct GuideSet {
 impl GuideSet {
     /// Resamples `guides` to `segments` each and prepares finding the `nearest`.
     pub(crate) fn new(mesh: &Mesh, guides: &[&Guide], segments: u32, nearest: usize) -> Self {
-        let resampled: Vec<Guide> =
-            guides.iter().map(|g| g.resampled(segments as usize)).collect();
+        let resampled: Vec<Guide> = guides
+            .iter()
+            .map(|g| g.resampled(segments as usize))
+            .collect();
         Self {
             segments,
-            vertices: resampled.iter().flat_map(|g| g.local.iter().copied()).collect(),
+            vertices: resampled
+                .iter()
+                .flat_map(|g| g.local.iter().copied())
+                .collect(),
             frames: resampled.iter().map(|g| g.frame).collect(),
             lengths: resampled.iter().map(Guide::length).collect(),
             locator: Locator::new(

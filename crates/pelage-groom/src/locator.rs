@@ -117,7 +117,11 @@ impl Locator {
                 None => Vec::new(),
             })
             .collect();
-        let cells = self.resolution.iter().map(|&n| n as usize).product::<usize>();
+        let cells = self
+            .resolution
+            .iter()
+            .map(|&n| n as usize)
+            .product::<usize>();
         self.starts = vec![0; cells + 1];
         for (&cell, list) in touched.iter().zip(&lists) {
             self.starts[cell + 1] = list.len() as u32;
@@ -130,12 +134,7 @@ impl Locator {
 
     /// Every guide that can be among the nearest of a point within half a diagonal of
     /// `centre`: no farther than the last of the nearest of `centre` plus a diagonal.
-    fn candidates_of(
-        &self,
-        centre: Vec3,
-        side: f32,
-        tree: &ImmutableKdTree<f32, 3>,
-    ) -> Vec<u32> {
+    fn candidates_of(&self, centre: Vec3, side: f32, tree: &ImmutableKdTree<f32, 3>) -> Vec<u32> {
         let centre = centre.to_array();
         let nearest = NonZeroUsize::new(self.nearest).unwrap_or(NonZeroUsize::MIN);
         let last = tree
@@ -192,7 +191,12 @@ impl Locator {
                 }
             }
         }
-        touched.iter().enumerate().filter(|(_, t)| **t).map(|(cell, _)| cell).collect()
+        touched
+            .iter()
+            .enumerate()
+            .filter(|(_, t)| **t)
+            .map(|(cell, _)| cell)
+            .collect()
     }
 }
 
@@ -200,14 +204,20 @@ impl Locator {
 /// Shorter lists would need more cells than they save.
 fn cell_side(mesh: &Mesh, low: Vec3, high: Vec3, guides: usize) -> f32 {
     let area: f64 = (0..mesh.triangles().len()).map(|t| mesh.area(t)).sum();
-    let size = (high - low).as_dvec3().max(pelage_curves::DVec3::splat(f64::MIN_POSITIVE));
+    let size = (high - low)
+        .as_dvec3()
+        .max(pelage_curves::DVec3::splat(f64::MIN_POSITIVE));
     let mut side = 0.5 * (area / guides.max(1) as f64).sqrt();
     // At least a 256th of the largest extent, so that a flat sheet stays flat.
     side = side.max(size.max_element() / 256.0);
     while (size / side + 1.0).element_product() > MAX_CELLS {
         side *= 1.25;
     }
-    if side > 0.0 && side.is_finite() { side as f32 } else { 1.0 }
+    if side > 0.0 && side.is_finite() {
+        side as f32
+    } else {
+        1.0
+    }
 }
 
 #[cfg(test)]
@@ -219,10 +229,22 @@ mod tests {
     /// An icosahedron-like bag of triangles around the origin.
     fn octahedron() -> Mesh {
         let positions = vec![
-            [1., 0., 0.], [-1., 0., 0.], [0., 1., 0.], [0., -1., 0.], [0., 0., 1.], [0., 0., -1.],
+            [1., 0., 0.],
+            [-1., 0., 0.],
+            [0., 1., 0.],
+            [0., -1., 0.],
+            [0., 0., 1.],
+            [0., 0., -1.],
         ];
         let faces = [
-            [0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5],
+            [0, 2, 4],
+            [2, 1, 4],
+            [1, 3, 4],
+            [3, 0, 4],
+            [2, 0, 5],
+            [1, 2, 5],
+            [3, 1, 5],
+            [0, 3, 5],
         ];
         Mesh::new(PolygonMesh {
             positions,

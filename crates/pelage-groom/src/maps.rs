@@ -34,7 +34,10 @@ impl ScalarField {
 
     /// The factor and the single-channel map, for whoever samples by it.
     pub fn parts(&self) -> (f32, Option<(&ImageMap, Wrap)>) {
-        (self.value, self.map.as_ref().map(|(map, wrap)| (&**map, *wrap)))
+        (
+            self.value,
+            self.map.as_ref().map(|(map, wrap)| (&**map, *wrap)),
+        )
     }
 }
 
@@ -72,7 +75,11 @@ pub(crate) struct FieldMaker<'a> {
 
 impl<'a> FieldMaker<'a> {
     pub(crate) fn new(images: &'a Images, has_uvs: bool) -> Self {
-        Self { images, has_uvs, decoded: HashMap::new() }
+        Self {
+            images,
+            has_uvs,
+            decoded: HashMap::new(),
+        }
     }
 
     pub(crate) fn scalar(
@@ -84,7 +91,10 @@ impl<'a> FieldMaker<'a> {
             None => None,
             Some(used) => Some((self.channel(key, used)?, used.wrap)),
         };
-        Ok(ScalarField { value: property.value, map })
+        Ok(ScalarField {
+            value: property.value,
+            map,
+        })
     }
 
     pub(crate) fn color(
@@ -97,24 +107,38 @@ impl<'a> FieldMaker<'a> {
             Some(used) => {
                 let image = self.image(key, used)?;
                 // 8-bit colour maps hold sRGB codes unless the recipe says otherwise.
-                let srgb = used.space.map_or(image.is_eight_bit(), |s| s == MapSpace::Srgb);
-                let image =
-                    if srgb { Arc::new(image.map_texels(linear_from_srgb)) } else { image };
+                let srgb = used
+                    .space
+                    .map_or(image.is_eight_bit(), |s| s == MapSpace::Srgb);
+                let image = if srgb {
+                    Arc::new(image.map_texels(linear_from_srgb))
+                } else {
+                    image
+                };
                 Some((image, used.wrap, used.blend))
             }
         };
-        Ok(ColorField { value: property.value, map })
+        Ok(ColorField {
+            value: property.value,
+            map,
+        })
     }
 
     /// The image behind a map, refused where the surface has no UVs to read it at.
     pub(crate) fn image(&self, key: &str, used: &MapUse) -> Result<Arc<ImageMap>, PlanError> {
         if !self.has_uvs {
-            return Err(PlanError::NoUvs { key: key.into(), map: used.path.written.clone() });
+            return Err(PlanError::NoUvs {
+                key: key.into(),
+                map: used.path.written.clone(),
+            });
         }
         self.images
             .get(&used.path.resolved)
             .cloned()
-            .ok_or_else(|| PlanError::MapNotLoaded { key: key.into(), map: path(used) })
+            .ok_or_else(|| PlanError::MapNotLoaded {
+                key: key.into(),
+                map: path(used),
+            })
     }
 
     fn channel(&mut self, key: &str, used: &MapUse) -> Result<Arc<ImageMap>, PlanError> {
@@ -151,6 +175,12 @@ fn one_channel(image: &ImageMap, channel: Channel, srgb: bool) -> ImageMap {
         _ => decode(texel[0]),
     };
     let texels = image.texels().chunks_exact(channels).map(pick).collect();
-    ImageMap::new(image.width(), image.height(), 1, texels, image.is_eight_bit())
-        .unwrap_or_else(|_| image.clone())
+    ImageMap::new(
+        image.width(),
+        image.height(),
+        1,
+        texels,
+        image.is_eight_bit(),
+    )
+    .unwrap_or_else(|_| image.clone())
 }

@@ -83,7 +83,9 @@ impl Plan {
 
     /// Gives each group its guides; a group whose hairs would have none is an error.
     fn share_out(&mut self, all: &[Guide]) -> Result<(), PlanError> {
-        let Some(sampler) = &self.sampler else { return Ok(()) };
+        let Some(sampler) = &self.sampler else {
+            return Ok(());
+        };
         if self.count > 0 && all.is_empty() {
             return Err(PlanError::NoGuides);
         }
@@ -91,8 +93,10 @@ impl Plan {
             Method::Nearest => 1,
             _ => self.wanted + 1,
         };
-        let group_of: Vec<u32> =
-            all.iter().map(|g| self.groups.at(self.rest.uv(&g.root))).collect();
+        let group_of: Vec<u32> = all
+            .iter()
+            .map(|g| self.groups.at(self.rest.uv(&g.root)))
+            .collect();
         for (index, group) in self.groups.all().iter().enumerate() {
             let mine: Vec<&Guide> = all
                 .iter()
@@ -100,7 +104,8 @@ impl Plan {
                 .filter(|(_, g)| **g as usize == index)
                 .map(|(guide, _)| guide)
                 .collect();
-            self.guides.push(GuideSet::new(&self.rest, &mine, group.segments, nearest));
+            self.guides
+                .push(GuideSet::new(&self.rest, &mine, group.segments, nearest));
         }
         let lonely = sampler
             .piece_centres()
@@ -118,10 +123,12 @@ impl Plan {
     fn note(&mut self) {
         let degenerate = self.rest.degenerate_triangles();
         if degenerate > 0 {
-            self.notes.push(format!("{degenerate} degenerate triangles grow no hair"));
+            self.notes
+                .push(format!("{degenerate} degenerate triangles grow no hair"));
         }
         if self.sampler.is_none() {
-            self.notes.push("roots.density is 0 on the whole surface: no hair can grow".into());
+            self.notes
+                .push("roots.density is 0 on the whole surface: no hair can grow".into());
         }
     }
 
@@ -132,7 +139,11 @@ impl Plan {
 
     /// Hairs the recipe asks for; 0 where no hair can grow.
     pub fn count(&self) -> u64 {
-        if self.sampler.is_some() { self.count } else { 0 }
+        if self.sampler.is_some() {
+            self.count
+        } else {
+            0
+        }
     }
 
     /// The surface at rest.
@@ -158,7 +169,9 @@ impl Plan {
     /// The hairs of each cell of a grid over the rest bounds (architecture.md, law 3);
     /// `None` where no hair can grow.
     pub fn voxels(&self, resolution: [u32; 3]) -> Option<VoxelRoots<'_>> {
-        self.sampler.as_ref().map(|s| VoxelRoots::new(s, &self.rest, resolution))
+        self.sampler
+            .as_ref()
+            .map(|s| VoxelRoots::new(s, &self.rest, resolution))
     }
 }
 
@@ -199,7 +212,10 @@ fn sampler(
     if let Some((map, _)) = map {
         refuse_negative(map)?;
     }
-    let density = Density { value, map: map.map(|(map, wrap)| (map, 0, wrap)) };
+    let density = Density {
+        value,
+        map: map.map(|(map, wrap)| (map, 0, wrap)),
+    };
     Ok(RootSampler::new(rest, &density, recipe.hair.seed))
 }
 
@@ -217,13 +233,20 @@ fn refuse_negative(map: &pelage_surface::ImageMap) -> Result<(), PlanError> {
 /// A hundredth of the diagonal of the mesh's box, unless the recipe says otherwise.
 fn tolerance(recipe: &Recipe, rest: &Mesh) -> f32 {
     let (low, high) = rest.bounds();
-    recipe.guides.tolerance.unwrap_or_else(|| low.distance(high) * 0.01)
+    recipe
+        .guides
+        .tolerance
+        .unwrap_or_else(|| low.distance(high) * 0.01)
 }
 
 /// Groups and their segments; where the recipe gives no number, a group's hairs get as
 /// many segments as its guide with the most.
 fn groups(recipe: &Recipe, maker: &FieldMaker, guides: &[Guide]) -> Result<Groups, PlanError> {
-    let most = guides.iter().map(|g| g.local.len().saturating_sub(1)).max().unwrap_or(1) as u32;
+    let most = guides
+        .iter()
+        .map(|g| g.local.len().saturating_sub(1))
+        .max()
+        .unwrap_or(1) as u32;
     let Some(used) = &recipe.groups.map else {
         return Ok(Groups::single(match recipe.groups.segments {
             Some(Segments::All(n)) => n,

@@ -45,7 +45,9 @@ mod tests {
     fn numbers_of_neighbouring_hairs_are_uniform_and_uncorrelated() {
         let n = 65_536u64;
         for seed in [0, 1, u64::MAX] {
-            let x: Vec<f64> = (0..n).map(|i| uniform(seed, i, Channel::Scale) as f64).collect();
+            let x: Vec<f64> = (0..n)
+                .map(|i| uniform(seed, i, Channel::Scale) as f64)
+                .collect();
             let mut bins = [0f64; 64];
             x.iter().for_each(|v| bins[(v * 64.0) as usize] += 1.0);
             let expected = n as f64 / 64.0;

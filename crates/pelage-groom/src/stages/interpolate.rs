@@ -32,11 +32,24 @@ mod tests {
 
     #[test]
     fn equal_guides_reproduce_the_guide() {
-        let guide = [Vec3::ZERO, Vec3::new(0.1, 0.2, 1.0), Vec3::new(0.3, 0.1, 2.0)];
+        let guide = [
+            Vec3::ZERO,
+            Vec3::new(0.1, 0.2, 1.0),
+            Vec3::new(0.3, 0.1, 2.0),
+        ];
         let guides = [guide, guide, guide].concat();
-        let share = |guide, weight| Share { guide, weight, cosine: weight, sine: 0.0 };
+        let share = |guide, weight| Share {
+            guide,
+            weight,
+            cosine: weight,
+            sine: 0.0,
+        };
         let mut hair = [Vec3::ONE; 3];
-        interpolate(&guides, &[share(0, 0.2), share(1, 0.5), share(2, 0.3)], &mut hair);
+        interpolate(
+            &guides,
+            &[share(0, 0.2), share(1, 0.5), share(2, 0.3)],
+            &mut hair,
+        );
         for (h, g) in hair.iter().zip(guide) {
             assert!(h.distance(g) < 1e-6);
         }

@@ -23,8 +23,11 @@ pub struct Look {
 pub fn along(look: &Look, colors: &mut [[f32; 3]], opacities: &mut [f32], widths: &mut [f32]) {
     let step = 1.0 / (colors.len().max(2) - 1) as f32;
     let mix = |[root, tip]: [f32; 2], t: f32| root * (1.0 - t) + tip * t;
-    for (i, ((color, opacity), width)) in
-        colors.iter_mut().zip(opacities.iter_mut()).zip(widths.iter_mut()).enumerate()
+    for (i, ((color, opacity), width)) in colors
+        .iter_mut()
+        .zip(opacities.iter_mut())
+        .zip(widths.iter_mut())
+        .enumerate()
     {
         let t = i as f32 * step;
         *color = look.color.at(t);

@@ -27,5 +27,11 @@ pub struct Root {
 pub fn root(hair: u64, sampler: &RootSampler, rest: &Mesh, groups: &Groups) -> Root {
     let place = sampler.root(hair);
     let uv = rest.uv(&place);
-    Root { hair, place, rest: rest.position(&place), uv, group: groups.at(uv) }
+    Root {
+        hair,
+        place,
+        rest: rest.position(&place),
+        uv,
+        group: groups.at(uv),
+    }
 }

@@ -37,7 +37,9 @@ pub struct Share {
 #[inline]
 pub fn inverse_distance(near: &[Near], wanted: usize, weights: &mut Vec<f32>) {
     weights.clear();
-    let (Some(first), Some(last)) = (near.first(), near.last()) else { return };
+    let (Some(first), Some(last)) = (near.first(), near.last()) else {
+        return;
+    };
     // Nearer than a millionth of the radius: the weight is beyond what f32 can mix.
     if first.square <= last.square * 1e-12 {
         weights.push(1.0);
@@ -56,7 +58,9 @@ pub fn inverse_distance(near: &[Near], wanted: usize, weights: &mut Vec<f32>) {
     if sum > 0.0 && sum.is_finite() {
         weights.iter_mut().for_each(|w| *w /= sum);
     } else {
-        weights.iter_mut().for_each(|w| *w = 1.0 / near.len() as f32);
+        weights
+            .iter_mut()
+            .for_each(|w| *w = 1.0 / near.len() as f32);
     }
 }
 
@@ -72,7 +76,11 @@ pub fn turn(guide: &RootFrame, hair: &RootFrame) -> (f32, f32) {
         - (guide.normal + hair.normal) * (guide.tangent.dot(hair.normal) / (1.0 + cosine));
     let (c, s) = (carried.dot(hair.tangent), carried.dot(hair.binormal));
     let length = (c * c + s * s).sqrt();
-    if length > 0.0 { (c / length, s / length) } else { (1.0, 0.0) }
+    if length > 0.0 {
+        (c / length, s / length)
+    } else {
+        (1.0, 0.0)
+    }
 }
 
 #[cfg(test)]
@@ -83,7 +91,12 @@ mod tests {
 
     fn near(distances: &[f32]) -> Vec<Near> {
         let guides = distances.iter().enumerate();
-        guides.map(|(i, d)| Near { guide: i as u32, square: d * d }).collect()
+        guides
+            .map(|(i, d)| Near {
+                guide: i as u32,
+                square: d * d,
+            })
+            .collect()
     }
 
     #[test]
