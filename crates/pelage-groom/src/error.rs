@@ -4,14 +4,15 @@ use crate::guide::FarGuide;
 use pelage_surface::MeshError;
 use std::path::PathBuf;
 
-/// Why a groom cannot be compiled to a plan.
+/// Why a groom cannot be compiled to a plan. Prints the reason; [`PlanError::key`] says
+/// which key of the recipe it concerns.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PlanError {
     /// The polygons of the rest mesh are no surface.
-    #[error("surface.mesh: {0}")]
+    #[error("{0}")]
     Mesh(#[from] MeshError),
     /// A posed mesh does not fit the rest mesh.
-    #[error("surface.posed: {path}: {error}", path = .path.display())]
+    #[error("{path}: {error}", path = .path.display())]
     Pose {
         /// The file of the pose.
         path: PathBuf,
@@ -20,7 +21,7 @@ pub enum PlanError {
     },
     /// A property needs a map, but the surface has no texture coordinates.
     #[error(
-        "{key}: reads the map {map:?}, but the surface has no UVs; \
+        "reads the map {map:?}, but the surface has no UVs; \
         add UVs to the mesh or remove the map"
     )]
     NoUvs {
@@ -30,7 +31,7 @@ pub enum PlanError {
         map: String,
     },
     /// Whoever loads images left one out.
-    #[error("{key}: the map {} was not loaded", .map.display())]
+    #[error("the map {} was not loaded", .map.display())]
     MapNotLoaded {
         /// The property.
         key: String,
@@ -39,7 +40,7 @@ pub enum PlanError {
     },
     /// A density below zero.
     #[error(
-        "roots.density: texel (column {x}, row {y} from the top) is {value}; \
+        "texel (column {x}, row {y} from the top) is {value}; \
         a density must be at least 0"
     )]
     NegativeDensity {
@@ -51,13 +52,13 @@ pub enum PlanError {
         value: f32,
     },
     /// No triangle has an area.
-    #[error("surface.mesh: every triangle is degenerate; no hair can grow")]
+    #[error("every triangle is degenerate; no hair can grow")]
     NoSurface,
     /// There are hairs to make but no guide to make them from.
-    #[error("guides: there are none; hair needs at least one")]
+    #[error("there are none; hair needs at least one")]
     NoGuides,
     /// Guides that lie off the surface.
-    #[error("guides: {} farther from the surface than guides.tolerance = {tolerance}: {}; \
+    #[error("{} farther from the surface than guides.tolerance = {tolerance}: {}; \
         move them or raise the tolerance", count(.far.len()), listed(.far))]
     FarGuides {
         /// All of them.
@@ -66,7 +67,7 @@ pub enum PlanError {
         tolerance: f32,
     },
     /// A guide with a vertex that is NaN or infinite.
-    #[error("guides: vertex {vertex} of guide {index} is not finite")]
+    #[error("vertex {vertex} of guide {index} is not finite")]
     GuideNotFinite {
         /// Guide.
         index: usize,
@@ -74,14 +75,14 @@ pub enum PlanError {
         vertex: usize,
     },
     /// A guide without length.
-    #[error("guides: guide {index} has no two different vertices")]
+    #[error("guide {index} has no two different vertices")]
     GuideTooShort {
         /// Guide.
         index: usize,
     },
     /// An interpolation group that hairs can fall in but no guide does.
     #[error(
-        "groups: no guide grows in group {group} ({color}), whose hairs need one; \
+        "no guide grows in group {group} ({color}), whose hairs need one; \
         add a guide there or change groups.map"
     )]
     GroupWithoutGuides {
@@ -92,13 +93,30 @@ pub enum PlanError {
     },
     /// A map of groups that is no map of groups.
     #[error(
-        "groups.map: holds more than {limit} colours; groups need flat colours, \
+        "holds more than {limit} colours; groups need flat colours, \
         or segments listed by colour"
     )]
     TooManyGroups {
         /// How many are allowed.
         limit: usize,
     },
+}
+
+impl PlanError {
+    /// The key of the recipe that the error concerns, dotted.
+    pub fn key(&self) -> &str {
+        match self {
+            PlanError::Mesh(_) | PlanError::NoSurface => "surface.mesh",
+            PlanError::Pose { .. } => "surface.posed",
+            PlanError::NoUvs { key, .. } | PlanError::MapNotLoaded { key, .. } => key,
+            PlanError::NegativeDensity { .. } => "roots.density",
+            PlanError::NoGuides
+            | PlanError::FarGuides { .. }
+            | PlanError::GuideNotFinite { .. }
+            | PlanError::GuideTooShort { .. } => "guides",
+            PlanError::GroupWithoutGuides { .. } | PlanError::TooManyGroups { .. } => "groups.map",
+        }
+    }
 }
 
 fn count(n: usize) -> String {
