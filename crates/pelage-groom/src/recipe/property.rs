@@ -216,5 +216,10 @@ fn table_schema<V: PropertyValue>(rule: Rule, generator: &mut SchemaGenerator) -
     if rule.ramp {
         keys["ramp"] = ramp::schema::<V>(rule);
     }
-    json!({ "type": "object", "properties": keys, "additionalProperties": false })
+    json!({
+        "type": "object",
+        "properties": keys,
+        "minProperties": 1,
+        "additionalProperties": false,
+    })
 }
