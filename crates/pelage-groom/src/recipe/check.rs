@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use super::Recipe;
-use super::error::ProblemKind;
 use super::reader::Reader;
 use super::segments::Segments;
 
@@ -22,7 +21,7 @@ fn check_guides(recipe: &Recipe, reader: &mut Reader<'_>) {
             let span = span(reader, "guides.grow");
             reader.exclusive("guides.grow", span, "guides.curves");
         }
-        (None, None) if is_table_or_absent(reader, "guides") => {
+        (None, None) if !reader.refused("guides") => {
             let span = span(reader, "guides");
             let what = "guides: [guides] with curves = \"file\", or [guides.grow] with a length";
             reader.missing("guides", span, Some(what));
@@ -33,12 +32,6 @@ fn check_guides(recipe: &Recipe, reader: &mut Reader<'_>) {
         let span = span(reader, "guides.tolerance");
         reader.lonely("guides.tolerance", span, "guides.curves");
     }
-}
-
-/// Whether nothing was said about the type of `key`.
-fn is_table_or_absent(reader: &Reader<'_>, key: &str) -> bool {
-    let mistaken = |p: &super::error::Problem| p.key == key && p.kind == ProblemKind::WrongType;
-    !reader.problems.iter().any(mistaken)
 }
 
 /// Segments by colour need the map with the colours.

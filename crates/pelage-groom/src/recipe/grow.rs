@@ -11,8 +11,8 @@ section! {
     pub struct Grow {
         /// Number of guides.
         pub count: u32 = 500 => Rule::at_least(1.0),
-        /// Chooses where the guides stand, apart from `hair.seed`. TOML numbers
-        /// reach 2^64 - 1 here.
+        /// Chooses where the guides stand, apart from `hair.seed`; whole numbers up
+        /// to 2^64 - 1.
         pub seed: u64 = 0 => Rule::at_least(0.0),
         /// Length of a guide, in units of the mesh.
         pub length: ScalarProperty = ScalarProperty::new(1.0) => Rule::at_least(0.0).required(),

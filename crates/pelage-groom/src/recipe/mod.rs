@@ -68,6 +68,7 @@ mod stages;
 mod strand;
 mod suggest;
 mod surface;
+mod syntax;
 mod template;
 mod word;
 

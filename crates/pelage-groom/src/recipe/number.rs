@@ -117,6 +117,7 @@ macro_rules! whole_entry {
 
             fn schema(&self, rule: Rule, _: &mut SchemaGenerator) -> Schema {
                 let mut schema = rule.limits.schema("integer");
+                schema.entry("maximum").or_insert(json!(<$type>::MAX));
                 schema.insert("default".into(), json!(self));
                 schema.into()
             }

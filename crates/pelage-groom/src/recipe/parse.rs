@@ -8,10 +8,11 @@ use toml::de::{DeTable, DeValue};
 use super::Recipe;
 use super::check::check;
 use super::entry::{Entry, Rule};
-use super::error::{Problem, ProblemKind, RecipeError};
+use super::error::{Problem, RecipeError};
 use super::map::MapUse;
 use super::origin::Origin;
-use super::reader::{Reader, placed};
+use super::reader::Reader;
+use super::syntax::syntax;
 
 /// Largest recipe in bytes. Real ones are a few kilobytes; the limit is against
 /// a mesh or an image passed by mistake.
@@ -24,9 +25,13 @@ impl Recipe {
     /// The error lists every mistake, each with its place.
     pub fn parse(text: &str, file: &Path) -> Result<Self, RecipeError> {
         let (recipe, mut problems) = read(text, file)?;
-        let unbuilt = recipe.unbuilt().into_iter();
-        problems
-            .extend(unbuilt.map(|unbuilt| recipe.unbuilt_problem(&unbuilt.key, unbuilt.message)));
+        for unbuilt in recipe.unbuilt() {
+            // A value that is wrong in itself has been reported.
+            let wrong = |problem: &Problem| problem.key.starts_with(&unbuilt.key);
+            if !problems.iter().any(wrong) {
+                problems.push(recipe.unbuilt_problem(&unbuilt.key, unbuilt.message));
+            }
+        }
         finish(recipe, problems)
     }
 
@@ -66,14 +71,15 @@ fn read(text: &str, file: &Path) -> Result<(Recipe, Vec<Problem>), RecipeError> 
         return Err(too_large(file, text.len() as u64));
     }
     // The parser bounds the depth of tables and lists itself (80).
-    let table = DeTable::parse(text).map_err(|error| syntax(text, file, &error))?;
+    let table = DeTable::parse(text).map_err(|error| syntax(text, file, error))?;
     let table = Spanned::new(table.span(), DeValue::Table(table.into_inner()));
     let mut reader = Reader::new(text, file);
     let mut recipe = Recipe::default();
     recipe.read(&table, "", Rule::ANY, &mut reader);
     check(&recipe, &mut reader);
-    recipe.origin = Origin::new(file, text, reader.spans);
-    Ok((recipe, reader.problems))
+    let (problems, spans) = reader.finish();
+    recipe.origin = Origin::new(file, text, spans);
+    Ok((recipe, problems))
 }
 
 /// The recipe, if nothing is wrong.
@@ -82,17 +88,6 @@ fn finish(recipe: Recipe, problems: Vec<Problem>) -> Result<Recipe, RecipeError>
         Some(error) => Err(error),
         None => Ok(recipe),
     }
-}
-
-/// What the TOML parser says, at the place it says.
-fn syntax(text: &str, file: &Path, error: &toml::de::Error) -> RecipeError {
-    let span = error.span().unwrap_or(0..0);
-    let mut message = error.message().to_owned();
-    if message == "duplicate key" {
-        let key = text.get(span.clone()).unwrap_or_default();
-        message = format!("{key} is given twice");
-    }
-    placed(text, file, ProblemKind::Syntax, "", span, message).into()
 }
 
 fn too_large(file: &Path, size: u64) -> RecipeError {

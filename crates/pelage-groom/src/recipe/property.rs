@@ -156,7 +156,7 @@ fn read_table<V: PropertyValue>(
     let standard = MapUse::new(Default::default(), V::CHANNEL, V::BLEND);
     property.map = MapUse::read(table, key, standard, &keys, reader);
     property.ramp = None;
-    reader.refuse_others(table, key, &keys);
+    let unknown = reader.refuse_others(table, key, &keys);
 
     let plain_key = join(key, "value");
     let plain = reader.find(table, &plain_key, "value");
@@ -179,7 +179,7 @@ fn read_table<V: PropertyValue>(
         }
     } else if let Some(map) = &property.map {
         property.value = V::neutral(map.blend);
-    } else if !table.contains_key("map") {
+    } else if !table.contains_key("map") && !unknown {
         reader.missing(&plain_key, value.span(), Some("a value, a map or both"));
     }
 }
@@ -216,5 +216,10 @@ fn table_schema<V: PropertyValue>(rule: Rule, generator: &mut SchemaGenerator) -
     if rule.ramp {
         keys["ramp"] = ramp::schema::<V>(rule);
     }
-    json!({ "type": "object", "properties": keys, "additionalProperties": false })
+    json!({
+        "type": "object",
+        "properties": keys,
+        "minProperties": 1,
+        "additionalProperties": false,
+    })
 }

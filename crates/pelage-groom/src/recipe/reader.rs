@@ -13,13 +13,18 @@ use super::error::{Problem, ProblemKind};
 use super::excerpt::{Excerpt, Place};
 use super::suggest::nearest;
 
+/// How many problems are noted at most.
+const NOTED: usize = 200;
+
 /// The text of a recipe and what was found in it so far.
 pub(crate) struct Reader<'s> {
     source: &'s str,
     file: &'s Path,
     folder: PathBuf,
     /// Mistakes, in the order they were met.
-    pub(crate) problems: Vec<Problem>,
+    problems: Vec<Problem>,
+    /// Keys that unknown ones were probably meant to be.
+    meant: Vec<String>,
     /// Bytes of the value of every key met, by dotted key.
     pub(crate) spans: BTreeMap<String, Range<usize>>,
 }
@@ -39,6 +44,12 @@ pub(crate) fn join(key: &str, name: &str) -> String {
     }
 }
 
+/// Whether `key` is `above` or below it.
+fn is_below(key: &str, above: &str) -> bool {
+    let rest = key.strip_prefix(above);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+}
+
 impl<'s> Reader<'s> {
     /// A reader of `source`, the text of `file`.
     pub(crate) fn new(source: &'s str, file: &'s Path) -> Self {
@@ -47,8 +58,24 @@ impl<'s> Reader<'s> {
             file,
             folder: file.parent().unwrap_or(Path::new("")).to_owned(),
             problems: Vec::new(),
+            meant: Vec::new(),
             spans: BTreeMap::new(),
         }
+    }
+
+    /// The mistakes and the places of values. A key that is missing because it
+    /// is misspelt is reported once, where it is misspelt.
+    pub(crate) fn finish(mut self) -> (Vec<Problem>, BTreeMap<String, Range<usize>>) {
+        let meant = self.meant;
+        let misspelt = |key: &str| meant.iter().any(|m| is_below(m, key) || is_below(key, m));
+        self.problems
+            .retain(|p| p.kind != ProblemKind::Missing || !misspelt(&p.key));
+        (self.problems, self.spans)
+    }
+
+    /// Whether the value of exactly `key` has been refused.
+    pub(crate) fn refused(&self, key: &str) -> bool {
+        self.problems.iter().any(|problem| problem.key == key)
     }
 
     /// The folder where relative paths start.
@@ -81,19 +108,30 @@ impl<'s> Reader<'s> {
         Some(value)
     }
 
-    /// Reports every key of `table` that is not among `allowed`.
-    pub(crate) fn refuse_others(&mut self, table: &DeTable<'_>, key: &str, allowed: &[&str]) {
+    /// Reports every key of `table` that is not among `allowed`; false if none.
+    pub(crate) fn refuse_others(
+        &mut self,
+        table: &DeTable<'_>,
+        key: &str,
+        allowed: &[&str],
+    ) -> bool {
+        let before = self.problems.len();
         for name in table
             .keys()
             .filter(|name| !allowed.contains(&name.get_ref().as_ref()))
         {
+            if self.problems.len() >= NOTED {
+                break;
+            }
             let found = name.get_ref().as_ref();
             let list = allowed.join(", ");
+            let meant = nearest(found, allowed);
+            self.meant.extend(meant.map(|word| join(key, word)));
             let holder = if key.is_empty() { "a recipe" } else { key };
-            self.problems.push(Problem {
+            self.push(Problem {
                 found: Some(shortened(found)),
                 allowed: Some(list.clone()),
-                suggestion: nearest(found, allowed).map(|word| format!("did you mean {word:?}?")),
+                suggestion: meant.map(|word| format!("did you mean {word:?}?")),
                 ..self.problem(
                     ProblemKind::UnknownKey,
                     &join(key, &shortened(found)),
@@ -102,6 +140,7 @@ impl<'s> Reader<'s> {
                 )
             });
         }
+        self.problems.len() > before
     }
 
     /// Reports a value of another type than `expected`.
@@ -155,7 +194,7 @@ impl<'s> Reader<'s> {
     ) {
         let found = self.found(value);
         let message = format!("expected {expected}, found {found}");
-        self.problems.push(Problem {
+        self.push(Problem {
             found: Some(found),
             allowed: Some(expected),
             suggestion,
@@ -169,24 +208,25 @@ impl<'s> Reader<'s> {
             Some(what) => format!("missing: the recipe must give {what}"),
             None => "missing: the recipe must give it".to_owned(),
         };
-        self.problems.push(Problem {
-            allowed: what.map(str::to_owned),
-            ..self.problem(ProblemKind::Missing, key, span, message)
-        });
+        let mut problem = self.problem(ProblemKind::Missing, key, span.clone(), message);
+        problem.allowed = what.map(str::to_owned);
+        // Nothing is written of a section that is missing as a whole.
+        problem.excerpt = problem.excerpt.filter(|_| !span.is_empty());
+        self.push(problem);
     }
 
     /// Reports that `key`, at `span`, says nothing without `other` beside it.
     pub(crate) fn lonely(&mut self, key: &str, span: Range<usize>, other: &str) {
         let message = format!("says nothing without {other} beside it");
         let problem = self.problem(ProblemKind::Missing, key, span, message);
-        self.problems.push(problem);
+        self.push(problem);
     }
 
     /// Reports a key, such as a colour, that is not `expected`.
     pub(crate) fn wrong_key(&mut self, key: &str, name: &Spanned<Cow<'_, str>>, expected: &str) {
         let found = shortened(name.get_ref());
         let message = format!("expected {expected}, found {found:?}");
-        self.problems.push(Problem {
+        self.push(Problem {
             found: Some(found),
             allowed: Some(expected.to_owned()),
             ..self.problem(ProblemKind::OutOfRange, key, name.span(), message)
@@ -197,7 +237,15 @@ impl<'s> Reader<'s> {
     pub(crate) fn exclusive(&mut self, key: &str, span: Range<usize>, other: &str) {
         let message = format!("excludes {other}: give one of them");
         let problem = self.problem(ProblemKind::Exclusive, key, span, message);
-        self.problems.push(problem);
+        self.push(problem);
+    }
+
+    /// Notes a problem, up to a number that nobody reads through: each costs a
+    /// search for its line.
+    fn push(&mut self, problem: Problem) {
+        if self.problems.len() < NOTED {
+            self.problems.push(problem);
+        }
     }
 
     /// A problem at `span` with nothing but a message.
@@ -245,7 +293,7 @@ pub(crate) fn placed(
 }
 
 /// The first line of `text`, shortened for a message, without control characters.
-fn shortened(text: &str) -> String {
+pub(crate) fn shortened(text: &str) -> String {
     const LONGEST: usize = 40;
     let line = text.lines().next().unwrap_or("");
     let mut short: String = line.chars().take(LONGEST).collect();

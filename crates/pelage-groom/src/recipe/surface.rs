@@ -1,4 +1,5 @@
-//! `[surface]`: the mesh that grows hair.
+//! `[surface]`: the mesh that grows hair. The default names no mesh; a recipe
+//! read from text always does.
 
 use super::entry::Rule;
 use super::path::FilePath;
@@ -18,8 +19,7 @@ words! {
 section! {
     /// The mesh that grows hair.
     pub struct Surface {
-        /// The mesh in its rest pose, which decides where hairs grow. A `Surface`
-        /// made by `default()` names no file; one read from a recipe always does.
+        /// The mesh in its rest pose, which decides where hairs grow.
         pub mesh: FilePath = FilePath::default() => Rule::ANY.required(),
         /// The mesh in the pose to be dressed: one file, a file with time samples,
         /// or one file a frame with `#` for the digits of the frame number

@@ -24,7 +24,7 @@ impl Recipe {
     pub fn to_toml(&self) -> String {
         let mut text = Writer::default();
         self.walk("", "", &mut |leaf| text.key(&leaf, false));
-        text.0
+        text.text
     }
 
     /// [`Recipe::to_toml`] with the documentation of each key above it, and keys
@@ -32,13 +32,20 @@ impl Recipe {
     pub fn to_documented_toml(&self) -> String {
         let mut text = Writer::default();
         self.walk("", "", &mut |leaf| text.key(&leaf, true));
-        text.0
+        text.text
     }
 }
 
-/// Text in the making, with the section it is in.
+/// Text in the making.
 #[derive(Default)]
-struct Writer(String, String);
+struct Writer {
+    text: String,
+    /// The section it is in.
+    section: String,
+    /// Whether the root of that section has a ramp, which leaves the keys of
+    /// the other places along the strand out.
+    ramp: bool,
+}
 
 impl Writer {
     /// Adds a key, after the header of its section if that is another.
@@ -47,17 +54,22 @@ impl Writer {
             return;
         }
         let (section, name) = leaf.key.rsplit_once('.').unwrap_or(("", &leaf.key));
-        if section != self.1 {
-            let gap = if self.0.is_empty() { "" } else { "\n" };
-            self.0 += &format!("{gap}[{section}]\n");
-            self.1 = section.to_owned();
+        if section != self.section {
+            let gap = if self.text.is_empty() { "" } else { "\n" };
+            self.text += &format!("{gap}[{section}]\n");
+            self.section = section.to_owned();
+            self.ramp = false;
         }
+        if self.ramp && matches!(name, "center" | "tip") {
+            return;
+        }
+        self.ramp |= leaf.ramp;
         if documented {
             self.comment(leaf.doc);
         }
         match &leaf.text {
-            Some(text) => self.0 += &format!("{name} = {text}\n"),
-            None => self.0 += &format!("# {name} =\n"),
+            Some(text) => self.text += &format!("{name} = {text}\n"),
+            None => self.text += &format!("# {name} =\n"),
         }
     }
 
@@ -66,11 +78,11 @@ impl Writer {
         let mut line = "#".to_owned();
         for word in description(doc).split_whitespace() {
             if line.len() + 1 + word.len() > COLUMNS {
-                self.0 += &format!("{line}\n");
+                self.text += &format!("{line}\n");
                 line = "#".to_owned();
             }
             line += &format!(" {word}");
         }
-        self.0 += &format!("{line}\n");
+        self.text += &format!("{line}\n");
     }
 }
