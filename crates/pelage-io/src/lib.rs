@@ -5,8 +5,10 @@
 //! Writers are [`Sink`](pelage_strands::Sink)s that write beside their target and
 //! rename into place, so that an old file stays whole until a new one is.
 
+mod atomic;
 mod curves;
 mod error;
 
+pub use atomic::AtomicFile;
 pub use curves::{AttributeInfo, CurveFile, CurveSet};
 pub use error::{Blame, ReadError};
