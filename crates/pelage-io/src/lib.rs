@@ -8,7 +8,12 @@
 mod atomic;
 mod curves;
 mod error;
+mod hair;
+mod obj;
+mod source;
 
 pub use atomic::AtomicFile;
 pub use curves::{AttributeInfo, CurveFile, CurveSet};
 pub use error::{Blame, ReadError};
+pub use hair::{parse_hair, read_hair};
+pub use obj::{parse_obj_curves, parse_obj_mesh, read_obj_curves, read_obj_mesh};
