@@ -9,11 +9,19 @@ mod atomic;
 mod curves;
 mod error;
 mod hair;
+mod image;
+mod image_exr;
+#[cfg(test)]
+mod image_tests;
+mod image_tiff;
+mod image_write;
 mod obj;
 mod source;
 
+pub use self::image::{parse_image, read_image};
 pub use atomic::AtomicFile;
 pub use curves::{AttributeInfo, CurveFile, CurveSet};
 pub use error::{Blame, ReadError};
 pub use hair::{parse_hair, read_hair};
+pub use image_write::{PngCodes, write_exr, write_png};
 pub use obj::{parse_obj_curves, parse_obj_mesh, read_obj_curves, read_obj_mesh};
