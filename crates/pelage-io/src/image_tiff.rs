@@ -48,7 +48,7 @@ pub(crate) fn texels(bytes: &[u8], path: &Path) -> Result<Texels, ReadError> {
 }
 
 fn channels(color: ColorType, path: &Path) -> Result<u32, ReadError> {
-    let whole_bytes = color.bit_depth() % 8 == 0;
+    let whole_bytes = color.bit_depth().is_multiple_of(8);
     match color {
         ColorType::Gray(_) if whole_bytes => Ok(1),
         ColorType::GrayA(_) if whole_bytes => Ok(2),

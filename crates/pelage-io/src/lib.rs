@@ -16,6 +16,7 @@ mod image_tests;
 mod image_tiff;
 mod image_write;
 mod obj;
+mod ply;
 mod source;
 
 pub use self::image::{parse_image, read_image};
@@ -25,3 +26,4 @@ pub use error::{Blame, ReadError};
 pub use hair::{parse_hair, read_hair};
 pub use image_write::{PngCodes, write_exr, write_png};
 pub use obj::{parse_obj_curves, parse_obj_mesh, read_obj_curves, read_obj_mesh};
+pub use ply::{parse_ply_mesh, read_ply_mesh};
