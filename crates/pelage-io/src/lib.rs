@@ -8,6 +8,8 @@
 mod atomic;
 mod curves;
 mod error;
+mod gltf;
+mod gltf_buffers;
 mod hair;
 mod image;
 mod image_exr;
@@ -19,6 +21,7 @@ mod obj;
 mod ply;
 mod source;
 
+pub use self::gltf::{parse_gltf_mesh, read_gltf_mesh};
 pub use self::image::{parse_image, read_image};
 pub use atomic::AtomicFile;
 pub use curves::{AttributeInfo, CurveFile, CurveSet};
