@@ -9,6 +9,7 @@ use std::io::Cursor;
 use std::path::Path;
 use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
 
 /// Largest allocation for one strip or tile, and for the whole image, in bytes.
 const MOST_BYTES: usize = 1 << 31;
@@ -32,6 +33,7 @@ pub(crate) fn texels(bytes: &[u8], path: &Path) -> Result<Texels, ReadError> {
         channels,
     };
     let expected = size.numbers(bytes.len(), path)?;
+    check_stored_bytes(&mut decoder, expected, path)?;
     let result = decoder.read_image().map_err(fail)?;
     let eight_bit = matches!(result, DecodingResult::U8(_));
     let numbers = numbers_of(result)
@@ -45,6 +47,33 @@ pub(crate) fn texels(bytes: &[u8], path: &Path) -> Result<Texels, ReadError> {
         numbers,
         eight_bit,
     })
+}
+
+/// Refuses texels without compression that the strips do not hold: the decoder would
+/// read on into whatever follows them.
+fn check_stored_bytes(
+    decoder: &mut Decoder<Cursor<&[u8]>>,
+    expected: usize,
+    path: &Path,
+) -> Result<(), ReadError> {
+    let compression = decoder.find_tag_unsigned::<u16>(Tag::Compression);
+    if !matches!(compression, Ok(None | Some(1))) {
+        return Ok(());
+    }
+    let bits = decoder
+        .colortype()
+        .map_or(0, |color| u64::from(color.bit_depth()));
+    let needed = expected as u64 * bits / 8;
+    for tag in [Tag::StripByteCounts, Tag::TileByteCounts] {
+        if let Ok(counts) = decoder.get_tag_u64_vec(tag) {
+            let stored = counts.iter().fold(0, |sum: u64, &n| sum.saturating_add(n));
+            if stored < needed {
+                let message = format!("{stored} bytes stored for an image of {needed}");
+                return Err(ReadError::file(path, message));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn channels(color: ColorType, path: &Path) -> Result<u32, ReadError> {
