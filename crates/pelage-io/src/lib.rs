@@ -5,8 +5,28 @@
 //! Writers are [`Sink`](pelage_strands::Sink)s that write beside their target and
 //! rename into place, so that an old file stays whole until a new one is.
 
+mod atomic;
 mod curves;
 mod error;
+mod gltf;
+mod gltf_buffers;
+mod hair;
+mod image;
+mod image_exr;
+#[cfg(test)]
+mod image_tests;
+mod image_tiff;
+mod image_write;
+mod obj;
+mod ply;
+mod source;
 
+pub use self::gltf::{parse_gltf_mesh, read_gltf_mesh};
+pub use self::image::{parse_image, read_image};
+pub use atomic::AtomicFile;
 pub use curves::{AttributeInfo, CurveFile, CurveSet};
 pub use error::{Blame, ReadError};
+pub use hair::{parse_hair, read_hair};
+pub use image_write::{PngCodes, write_exr, write_png};
+pub use obj::{parse_obj_curves, parse_obj_mesh, read_obj_curves, read_obj_mesh};
+pub use ply::{parse_ply_mesh, read_ply_mesh};

@@ -1,0 +1,29 @@
+//! The bytes of a file, whole.
+//!
+//! Every reader here holds its file in memory before it looks at it: then "does
+//! this count fit" is a comparison with a length, not a question to the disk.
+
+use crate::{Blame, ReadError};
+use std::fs;
+use std::path::Path;
+
+/// All bytes of the regular file `path`. Folders, devices and pipes are refused:
+/// the latter two may never end.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
+    let found = fs::metadata(path).map_err(|error| ReadError::world(path, &error))?;
+    if found.is_dir() {
+        return Err(ReadError::new(
+            path,
+            Blame::World,
+            "this is a folder, not a file",
+        ));
+    }
+    if !found.is_file() {
+        return Err(ReadError::new(
+            path,
+            Blame::World,
+            "this is a device or pipe; only regular files can be read",
+        ));
+    }
+    fs::read(path).map_err(|error| ReadError::world(path, &error))
+}
