@@ -7,6 +7,10 @@
 
 mod curves;
 mod error;
+mod strands_of;
+mod usd;
 
 pub use curves::{AttributeInfo, CurveFile, CurveSet};
 pub use error::{Blame, ReadError};
+pub use strands_of::strands_through_vertices;
+pub use usd::{UsdMesh, read_usd_curves, read_usd_mesh, usd_mesh_frames};
