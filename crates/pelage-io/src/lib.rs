@@ -7,10 +7,19 @@
 
 mod curves;
 mod error;
+mod inspect;
+mod inspect_mesh;
+mod layout;
+mod npz;
+mod read;
 mod strands_of;
 mod usd;
 
 pub use curves::{AttributeInfo, CurveFile, CurveSet};
 pub use error::{Blame, ReadError};
+pub use inspect::{AttributeReport, CurveReport, Inspection, Problem, Span, inspect};
+pub use inspect_mesh::MeshReport;
+pub use npz::read_npz_curves;
+pub use read::{FileKind, MeshFile, mesh_frames, read_curves, read_mesh, sniff};
 pub use strands_of::strands_through_vertices;
-pub use usd::{UsdMesh, read_usd_curves, read_usd_mesh, usd_mesh_frames};
+pub use usd::{read_usd_curves, read_usd_mesh, usd_mesh_frames};

@@ -1,11 +1,11 @@
 //! Curves of `UsdGeomBasisCurves` prims, in world space.
 
 use super::frames;
-use super::layout::{Layout, Mix};
 use super::mesh::gather;
 use super::stage::{Scene, with_scene};
 use super::values::{Entry, count};
 use super::xform::{transform_normals, transform_points};
+use crate::layout::{Layout, Mix};
 use crate::strands_of::strands_through_vertices;
 use crate::{AttributeInfo, CurveFile, CurveSet, ReadError};
 use openusd::sdf;
@@ -245,13 +245,10 @@ impl<'a> Reader<'a> {
             ));
         }
         for (curve, &count) in layout.counts().iter().enumerate() {
-            if basis.segments(count, wrap).is_none() {
-                let kind = match count < 2 {
-                    true => FaultKind::TooFewVertices,
-                    false => FaultKind::WrongCount,
-                };
+            // Curves of no or one vertex are found by `validate`.
+            if count >= 2 && basis.segments(count, wrap).is_none() {
                 self.faults.push(Fault {
-                    kind,
+                    kind: FaultKind::WrongCount,
                     strand: Some(curve),
                     detail: format!("{count} vertices make no {basis:?} {wrap:?} curve"),
                 });
@@ -266,7 +263,7 @@ impl<'a> Reader<'a> {
         let (points, layout) = self.points(basis, wrap);
         let ids: Vec<i64> = self.uniform(&layout, "primvars:hairId")?;
         let mut curves = StrandBuffer {
-            offsets: offsets(layout.counts()),
+            offsets: layout.offsets(),
             points,
             widths: self.vertex(&layout, &["primvars:widths", "widths"])?,
             colors: self.vertex(&layout, &["primvars:displayColor"])?,
@@ -303,14 +300,4 @@ impl<'a> Reader<'a> {
         }
         Ok((set, Extent { authored, computed }))
     }
-}
-
-/// Where each curve's vertices start.
-fn offsets(counts: &[usize]) -> Vec<u32> {
-    let ends = counts.iter().scan(0u32, |end, &count| {
-        // The sum is at most the number of points, which fits.
-        *end += count as u32;
-        Some(*end)
-    });
-    std::iter::once(0).chain(ends).collect()
 }

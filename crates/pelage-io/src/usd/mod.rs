@@ -10,32 +10,18 @@ mod crate_guard;
 mod crate_values;
 mod cursor;
 mod curves;
-mod layout;
 mod mesh;
 mod stage;
 mod text_guard;
 mod values;
 mod xform;
 
-pub(crate) use curves::read_curves_with_extents;
+pub(crate) use curves::{Extent, read_curves_with_extents};
 
-use crate::{CurveFile, ReadError};
+use crate::{CurveFile, MeshFile, ReadError};
 use openusd::sdf;
-use pelage_strands::UpAxis;
-use pelage_surface::PolygonMesh;
 use stage::{Scene, with_scene};
 use std::path::Path;
-
-/// The meshes of a USD file, and the space they are in.
-#[derive(Clone, Debug, PartialEq)]
-pub struct UsdMesh {
-    /// All meshes as one, in world space.
-    pub mesh: PolygonMesh,
-    /// Up axis of the stage; Y where it does not say.
-    pub up_axis: UpAxis,
-    /// Metres a unit; 0.01 where the stage does not say.
-    pub meters_per_unit: f64,
-}
 
 /// Reads the meshes of `path` at `time`: those at or below the prim `prim`
 /// (a path like `/World/body`), or all.
@@ -48,16 +34,21 @@ pub fn read_usd_mesh(
     path: &Path,
     prim: Option<&str>,
     time: Option<f64>,
-) -> Result<UsdMesh, ReadError> {
+) -> Result<MeshFile, ReadError> {
     with_scene(path, |scene| {
         let prims = meshes(scene, prim)?;
         let metadata = scene.metadata()?;
-        Ok(UsdMesh {
+        Ok(MeshFile {
             mesh: mesh::read(scene, &prims, time)?,
-            up_axis: metadata.up_axis.unwrap_or(UpAxis::Y),
-            meters_per_unit: metadata.meters_per_unit.unwrap_or(0.01),
+            up_axis: metadata.up_axis,
+            meters_per_unit: metadata.meters_per_unit,
         })
     })
+}
+
+/// Whether `path` has a mesh.
+pub(crate) fn has_usd_mesh(path: &Path) -> Result<bool, ReadError> {
+    with_scene(path, |scene| Ok(!scene.prims("Mesh")?.is_empty()))
 }
 
 /// Times at which the meshes of `path` (see [`read_usd_mesh`]) are sampled,

@@ -7,7 +7,7 @@
 use pelage_curves::{Basis, Wrap};
 
 /// Curves of one primitive, and those of them that have all their vertices.
-pub(super) struct Layout {
+pub(crate) struct Layout {
     basis: Basis,
     wrap: Wrap,
     /// Vertices of each curve that is kept.
@@ -19,7 +19,7 @@ pub(super) struct Layout {
 }
 
 /// A value that can be mixed with another.
-pub(super) trait Mix: Copy {
+pub(crate) trait Mix: Copy {
     /// `a` at `t` = 0, `b` at `t` = 1.
     fn mix(a: Self, b: Self, t: f32) -> Self;
 }
@@ -39,7 +39,7 @@ impl Mix for [f32; 3] {
 impl Layout {
     /// The layout of curves of `counts` vertices where there are `points` vertices:
     /// curves are kept from the first to the last that has all of its vertices.
-    pub(super) fn new(basis: Basis, wrap: Wrap, counts: &[usize], points: usize) -> Self {
+    pub(crate) fn new(basis: Basis, wrap: Wrap, counts: &[usize], points: usize) -> Self {
         let mut layout = Self {
             basis,
             wrap,
@@ -59,17 +59,17 @@ impl Layout {
     }
 
     /// Vertices of each curve that is kept.
-    pub(super) fn counts(&self) -> &[usize] {
+    pub(crate) fn counts(&self) -> &[usize] {
         &self.counts
     }
 
     /// Vertices of all curves that are kept.
-    pub(super) fn vertices(&self) -> usize {
+    pub(crate) fn vertices(&self) -> usize {
         self.counts.iter().sum()
     }
 
     /// Vertices of all curves of the file.
-    pub(super) fn file_vertices(&self) -> u64 {
+    pub(crate) fn file_vertices(&self) -> u64 {
         self.file_vertices
     }
 
@@ -88,8 +88,28 @@ impl Layout {
         }
     }
 
+    /// Where each kept curve's vertices start: one entry more than curves. Vertices
+    /// must be no more than fit in 32 bits.
+    pub(crate) fn offsets(&self) -> Vec<u32> {
+        let ends = self.counts.iter().scan(0u32, |end, &count| {
+            *end += count as u32;
+            Some(*end)
+        });
+        std::iter::once(0).chain(ends).collect()
+    }
+
+    /// Values of the domain `vertex` or `uniform` of the curves that are kept.
+    pub(crate) fn deal<T: Copy>(&self, values: &[T], domain: &str) -> Result<Vec<T>, String> {
+        self.check(values.len(), domain)?;
+        let kept = match domain {
+            "vertex" => self.vertices(),
+            _ => self.counts.len(),
+        };
+        Ok(values[..kept].to_vec())
+    }
+
     /// One value a vertex.
-    pub(super) fn per_vertex<T: Mix>(&self, values: &[T], domain: &str) -> Result<Vec<T>, String> {
+    pub(crate) fn per_vertex<T: Mix>(&self, values: &[T], domain: &str) -> Result<Vec<T>, String> {
         self.check(values.len(), domain)?;
         let mut all = Vec::with_capacity(self.vertices());
         let mut start = 0;
@@ -113,7 +133,7 @@ impl Layout {
     }
 
     /// One value a curve; of values that vary along a curve, the one of its root.
-    pub(super) fn per_curve<T: Copy>(&self, values: &[T], domain: &str) -> Result<Vec<T>, String> {
+    pub(crate) fn per_curve<T: Copy>(&self, values: &[T], domain: &str) -> Result<Vec<T>, String> {
         self.check(values.len(), domain)?;
         let mut start = 0;
         let mut all = Vec::with_capacity(self.counts.len());
@@ -154,7 +174,7 @@ impl Layout {
 
 /// Number of varying values of a curve of `vertices` vertices; at least 1 where it
 /// has a vertex.
-pub(super) fn varying_count(basis: Basis, wrap: Wrap, vertices: usize) -> usize {
+pub(crate) fn varying_count(basis: Basis, wrap: Wrap, vertices: usize) -> usize {
     match (basis, wrap) {
         (Basis::Linear, _) => vertices,
         (Basis::CatmullRom | Basis::BSpline, Wrap::Pinned) => vertices,
