@@ -6,9 +6,29 @@
 //! rename into place, so that an old file stays whole until a new one is.
 
 mod atomic;
+mod columns;
 mod curves;
+mod drawable;
 mod error;
+mod file_sink;
+mod frame_path;
+mod hair_prim;
+mod npz;
+mod recorder;
+mod rib;
+mod spool;
+mod stored_zip;
+mod text_array;
+mod text_numbers;
+mod usda;
+mod usdc;
+mod write;
 
 pub use atomic::AtomicFile;
 pub use curves::{AttributeInfo, CurveFile, CurveSet};
 pub use error::{Blame, ReadError};
+pub use npz::NpzWriter;
+pub use rib::RibWriter;
+pub use usda::UsdaWriter;
+pub use usdc::UsdcWriter;
+pub use write::{WRITABLE, WriteOptions, sink_for};
