@@ -11,7 +11,7 @@
 use std::fs;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempPath};
 
 /// Bytes gathered before they go to the system: large enough that the calls do not
 /// show beside formatting, small enough to stay in cache.
@@ -75,10 +75,33 @@ impl AtomicFile {
 
     /// Hands all bytes to the disk and gives the file its name.
     pub fn commit(self) -> io::Result<()> {
+        self.close()?.publish()
+    }
+
+    /// Hands all bytes to the disk and lets go of the file, not yet of its
+    /// temporary name: for sequences whose files should appear together, and may be
+    /// more than a process can hold open.
+    pub(crate) fn close(self) -> io::Result<Closed> {
         let temporary = self.temporary.into_inner().map_err(|e| e.into_error())?;
         temporary.as_file().sync_all()?;
-        temporary.persist(&self.target).map_err(|e| e.error)?;
-        Ok(())
+        Ok(Closed {
+            temporary: temporary.into_temp_path(),
+            target: self.target,
+        })
+    }
+}
+
+/// A whole file that only lacks its name; dropped, it goes away.
+#[derive(Debug)]
+pub(crate) struct Closed {
+    temporary: TempPath,
+    target: PathBuf,
+}
+
+impl Closed {
+    /// Gives the file its name.
+    pub(crate) fn publish(self) -> io::Result<()> {
+        self.temporary.persist(&self.target).map_err(|e| e.error)
     }
 }
 

@@ -4,7 +4,9 @@ use crate::poses::{PoseFiles, PoseSource};
 use pelage_curves::Vec3;
 use pelage_groom::recipe::{GuideSource, Recipe, RecipeError, Up};
 use pelage_groom::{Groom, Images, Plan, Request};
-use pelage_io::{MeshFile, ReadError, read_curves, read_image, read_mesh, strands_through_vertices};
+use pelage_io::{
+    MeshFile, ReadError, read_curves, read_image, read_mesh, strands_through_vertices,
+};
 use pelage_strands::{StreamInfo, UpAxis};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -45,20 +47,33 @@ pub struct Loaded {
 impl Loaded {
     /// A request for `hairs` on `threads` threads, as a still.
     pub fn request(&self, hairs: Range<u64>, threads: usize) -> Request {
-        Request { hairs, threads, info: self.info.clone() }
+        Request {
+            hairs,
+            threads,
+            info: self.info.clone(),
+        }
     }
 }
 
 /// Reads and checks the recipe at `path` alone.
 pub fn load_recipe(path: &Path) -> Result<Recipe, LoadError> {
-    let fail = |message: String| LoadError::File { path: path.into(), message };
-    let size = std::fs::metadata(path).map_err(|e| fail(e.to_string()))?.len();
+    let fail = |message: String| LoadError::File {
+        path: path.into(),
+        message,
+    };
+    let size = std::fs::metadata(path)
+        .map_err(|e| fail(e.to_string()))?
+        .len();
     if size > LARGEST_RECIPE {
         return Err(fail(format!("{size} bytes are too many for a recipe")));
     }
     let bytes = std::fs::read(path).map_err(|e| fail(e.to_string()))?;
-    let text = String::from_utf8(bytes)
-        .map_err(|e| fail(format!("byte {}: not UTF-8 text", e.utf8_error().valid_up_to())))?;
+    let text = String::from_utf8(bytes).map_err(|e| {
+        fail(format!(
+            "byte {}: not UTF-8 text",
+            e.utf8_error().valid_up_to()
+        ))
+    })?;
     Ok(Recipe::parse(&text, path)?)
 }
 
@@ -88,10 +103,20 @@ pub fn load_with(recipe: Recipe) -> Result<Loaded, LoadError> {
     };
     let info = stream_info(&recipe, &rest);
     let images = read_images(&recipe)?;
-    let groom =
-        Groom { recipe: recipe.clone(), mesh: rest.mesh, keep_file_normals, images, guides };
+    let groom = Groom {
+        recipe: recipe.clone(),
+        mesh: rest.mesh,
+        keep_file_normals,
+        images,
+        guides,
+    };
     let plan = Plan::new(groom).map_err(|e| recipe.error_at(e.key(), e.to_string()))?;
-    Ok(Loaded { poses: PoseFiles::new(source, keep_file_normals), recipe, plan, info })
+    Ok(Loaded {
+        poses: PoseFiles::new(source, keep_file_normals),
+        recipe,
+        plan,
+        info,
+    })
 }
 
 /// Normals of a file serve only where rest and pose both have them (law 4). A pose
@@ -101,9 +126,10 @@ fn keep_file_normals(rest: &MeshFile, source: &PoseSource) -> bool {
         PoseSource::Rest => return true,
         PoseSource::Sequence { .. } => return false,
         PoseSource::File(_) => 0.0,
-        PoseSource::Samples(path) => {
-            pelage_io::mesh_frames(path).ok().and_then(|f| f.first().copied()).unwrap_or(0.0)
-        }
+        PoseSource::Samples(path) => pelage_io::mesh_frames(path)
+            .ok()
+            .and_then(|f| f.first().copied())
+            .unwrap_or(0.0),
     };
     let has = |mesh: &pelage_surface::PolygonMesh| !mesh.corner_normals.is_empty();
     let posed = source.polygons(first).ok().flatten();

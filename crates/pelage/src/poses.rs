@@ -36,11 +36,19 @@ impl PoseSource {
         if let Some(first) = text.find('#') {
             let digits = text[first..].chars().take_while(|&c| c == '#').count();
             let (before, after) = (text[..first].into(), text[first + digits..].into());
-            return Ok(PoseSource::Sequence { before, after, digits });
+            return Ok(PoseSource::Sequence {
+                before,
+                after,
+                digits,
+            });
         }
         let samples = mesh_frames(path)?.len();
         let path = path.to_owned();
-        Ok(if samples > 1 { PoseSource::Samples(path) } else { PoseSource::File(path) })
+        Ok(if samples > 1 {
+            PoseSource::Samples(path)
+        } else {
+            PoseSource::File(path)
+        })
     }
 
     /// Whether different frames have different poses.
@@ -53,9 +61,11 @@ impl PoseSource {
         match self {
             PoseSource::Rest => None,
             PoseSource::File(path) | PoseSource::Samples(path) => Some(path.clone()),
-            PoseSource::Sequence { before, after, digits } => {
-                Some(format!("{before}{:0digits$}{after}", frame as i64).into())
-            }
+            PoseSource::Sequence {
+                before,
+                after,
+                digits,
+            } => Some(format!("{before}{:0digits$}{after}", frame as i64).into()),
         }
     }
 
@@ -83,7 +93,11 @@ pub struct PoseFiles {
 impl PoseFiles {
     /// Poses of `source`; see [`Mesh::posed`] for `keep_file_normals`.
     pub fn new(source: PoseSource, keep_file_normals: bool) -> Self {
-        Self { source, keep_file_normals, last: None }
+        Self {
+            source,
+            keep_file_normals,
+            last: None,
+        }
     }
 
     /// How the poses are named.
@@ -98,7 +112,9 @@ impl PoseFiles {
         rest: &Mesh,
         frame: f64,
     ) -> Result<Option<Arc<Mesh>>, LoadError> {
-        let Some(path) = self.source.path(frame) else { return Ok(None) };
+        let Some(path) = self.source.path(frame) else {
+            return Ok(None);
+        };
         let time = self.source.time(frame);
         if let Some((last, at, mesh)) = &self.last
             && *last == path
@@ -107,10 +123,20 @@ impl PoseFiles {
             return Ok(Some(mesh.clone()));
         }
         let at_key = |message: String| LoadError::Recipe(recipe.error_at("surface.posed", message));
-        let polygons = read_mesh(&path, time).map_err(|e| at_key(e.to_string()))?.mesh;
-        let mesh = rest.posed(&polygons, self.keep_file_normals).map_err(|error| {
-            at_key(PlanError::Pose { path: path.clone(), error }.to_string())
-        })?;
+        let polygons = read_mesh(&path, time)
+            .map_err(|e| at_key(e.to_string()))?
+            .mesh;
+        let mesh = rest
+            .posed(&polygons, self.keep_file_normals)
+            .map_err(|error| {
+                at_key(
+                    PlanError::Pose {
+                        path: path.clone(),
+                        error,
+                    }
+                    .to_string(),
+                )
+            })?;
         let mesh = Arc::new(mesh);
         self.last = Some((path, time, mesh.clone()));
         Ok(Some(mesh))
