@@ -18,7 +18,7 @@
 mod load;
 mod poses;
 
-pub use load::{LoadError, Loaded, load, load_recipe};
+pub use load::{Loaded, load, load_with};
 pub use poses::{PoseFiles, PoseSource};
 
 pub use pelage_curves as curves;

@@ -9,27 +9,8 @@ use pelage_io::{
 };
 use pelage_strands::{StreamInfo, UpAxis};
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
-
-/// Recipes larger than this are refused unread; real ones have a few kilobytes.
-const LARGEST_RECIPE: u64 = 16 << 20;
-
-/// Why a recipe could not be loaded.
-#[derive(Debug, thiserror::Error)]
-pub enum LoadError {
-    /// The recipe file itself could not be read.
-    #[error("{}: {message}", .path.display())]
-    File {
-        /// The recipe.
-        path: PathBuf,
-        /// What the system said.
-        message: String,
-    },
-    /// The recipe, or something it names, is wrong; tells the place in the recipe.
-    #[error(transparent)]
-    Recipe(#[from] RecipeError),
-}
 
 /// A recipe with everything it names, compiled.
 #[derive(Debug)]
@@ -55,39 +36,20 @@ impl Loaded {
     }
 }
 
-/// Reads and checks the recipe at `path` alone.
-pub fn load_recipe(path: &Path) -> Result<Recipe, LoadError> {
-    let fail = |message: String| LoadError::File {
-        path: path.into(),
-        message,
-    };
-    let size = std::fs::metadata(path)
-        .map_err(|e| fail(e.to_string()))?
-        .len();
-    if size > LARGEST_RECIPE {
-        return Err(fail(format!("{size} bytes are too many for a recipe")));
-    }
-    let bytes = std::fs::read(path).map_err(|e| fail(e.to_string()))?;
-    let text = String::from_utf8(bytes).map_err(|e| {
-        fail(format!(
-            "byte {}: not UTF-8 text",
-            e.utf8_error().valid_up_to()
-        ))
-    })?;
-    Ok(Recipe::parse(&text, path)?)
-}
-
 /// Reads the recipe at `path` and all that it names, and compiles it.
-pub fn load(path: &Path) -> Result<Loaded, LoadError> {
-    load_with(load_recipe(path)?)
+///
+/// An error tells the place in the recipe of whatever is wrong, in it or in a file it
+/// names.
+pub fn load(path: &Path) -> Result<Loaded, RecipeError> {
+    load_with(Recipe::load(path)?)
 }
 
 /// As [`load`], from a recipe that was read (and maybe changed) before.
-pub fn load_with(recipe: Recipe) -> Result<Loaded, LoadError> {
+pub fn load_with(recipe: Recipe) -> Result<Loaded, RecipeError> {
     let at = |key: &str| {
         let recipe = recipe.clone();
         let key = key.to_owned();
-        move |error: ReadError| LoadError::Recipe(recipe.error_at(&key, error.to_string()))
+        move |error: ReadError| recipe.error_at(&key, error.to_string())
     };
     let rest = read_mesh(&recipe.surface.mesh.resolved, None).map_err(at("surface.mesh"))?;
     let source = match &recipe.surface.posed {
@@ -146,7 +108,7 @@ fn read_guides(path: &Path) -> Result<Vec<Vec<Vec3>>, ReadError> {
     Ok(guides)
 }
 
-fn read_images(recipe: &Recipe) -> Result<Images, LoadError> {
+fn read_images(recipe: &Recipe) -> Result<Images, RecipeError> {
     let mut images = Images::new();
     for (key, used) in recipe.maps() {
         let path = &used.path.resolved;

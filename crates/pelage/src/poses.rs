@@ -1,8 +1,7 @@
 //! Where the posed surface of each frame comes from.
 
-use crate::load::LoadError;
 use pelage_groom::PlanError;
-use pelage_groom::recipe::Recipe;
+use pelage_groom::recipe::{Recipe, RecipeError};
 use pelage_io::{mesh_frames, read_mesh};
 use pelage_surface::{Mesh, PolygonMesh};
 use std::path::{Path, PathBuf};
@@ -111,7 +110,7 @@ impl PoseFiles {
         recipe: &Recipe,
         rest: &Mesh,
         frame: f64,
-    ) -> Result<Option<Arc<Mesh>>, LoadError> {
+    ) -> Result<Option<Arc<Mesh>>, RecipeError> {
         let Some(path) = self.source.path(frame) else {
             return Ok(None);
         };
@@ -122,7 +121,7 @@ impl PoseFiles {
         {
             return Ok(Some(mesh.clone()));
         }
-        let at_key = |message: String| LoadError::Recipe(recipe.error_at("surface.posed", message));
+        let at_key = |message: String| recipe.error_at("surface.posed", message);
         let polygons = read_mesh(&path, time)
             .map_err(|e| at_key(e.to_string()))?
             .mesh;
