@@ -49,8 +49,9 @@ impl Layout {
             file_varying: 0,
         };
         for &count in counts {
-            layout.file_vertices += count as u64;
-            layout.file_varying += varying_count(basis, wrap, count) as u64;
+            layout.file_vertices = layout.file_vertices.saturating_add(count as u64);
+            let varying = varying_count(basis, wrap, count) as u64;
+            layout.file_varying = layout.file_varying.saturating_add(varying);
             if layout.file_vertices <= points as u64 {
                 layout.counts.push(count);
             }

@@ -189,11 +189,8 @@ fn assemble(
     };
     let points = all.reals::<3>("points");
     let counts = all.integers("counts");
-    let (Ok(mut points), Ok(counts)) = (points, counts) else {
-        return Err(missing(
-            "points of n × 3 real numbers and counts of m integers",
-        ));
-    };
+    let wrong = |message: String| ReadError::file(path, message);
+    let (mut points, counts) = (points.map_err(wrong)?, counts.map_err(wrong)?);
     if u32::try_from(points.len()).is_err() {
         let message = format!("it has {} points; at most {} fit", points.len(), u32::MAX);
         return Err(ReadError::new(path, crate::Blame::Limit, message));

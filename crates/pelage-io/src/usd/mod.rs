@@ -6,6 +6,7 @@
 //! abstract ones and the prototypes of point instancers are left out; invisible
 //! ones are not. USDZ packages are not read.
 
+mod arcs;
 mod crate_guard;
 mod crate_values;
 mod cursor;

@@ -1,19 +1,25 @@
 //! Opens a USD stage so that no file can end the process.
 
 use super::cursor::Broken;
-use super::{crate_guard, text_guard};
+use super::{arcs, crate_guard, text_guard};
 use crate::ReadError;
 use openusd::{ar, sdf, usd};
 use pelage_strands::UpAxis;
 use std::cell::RefCell;
 use std::fmt::Display;
 use std::io;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+/// Bytes of stack for composing a stage, which calls itself for every level of
+/// prims and arcs.
+const STACK: usize = 256 << 20;
+
 /// Prims visited at most; references to references can multiply without end.
 const MAX_PRIMS: usize = 250_000;
+
+/// Levels of prims; a prim that inherits its parent has a child without end.
+const MAX_DEPTH: usize = 64;
 
 /// An open stage and the file it came from.
 pub(super) struct Scene {
@@ -29,14 +35,20 @@ pub(super) struct Metadata {
 }
 
 /// Opens `path` and lets `read` take what it needs.
-pub(super) fn with_scene<T>(
+pub(super) fn with_scene<T: Send>(
     path: &Path,
-    read: impl FnOnce(&Scene) -> Result<T, ReadError>,
+    read: impl FnOnce(&Scene) -> Result<T, ReadError> + Send,
 ) -> Result<T, ReadError> {
-    // The guards refuse what would exhaust memory or the stack. Counts and indices
-    // that contradict each other in smaller ways still make the reader panic; that
-    // is the file's fault, and the stage is dropped with all it holds.
-    let outcome = catch_unwind(AssertUnwindSafe(|| read(&Scene::open(path)?)));
+    // The guards refuse what would exhaust memory or a large stack. Counts and
+    // indices that contradict each other in smaller ways still make the reader
+    // panic; that is the file's fault, and the stage is dropped with all it holds.
+    let outcome = std::thread::scope(|scope| {
+        let reader = std::thread::Builder::new().stack_size(STACK);
+        match reader.spawn_scoped(scope, || read(&Scene::open(path)?)) {
+            Ok(thread) => thread.join(),
+            Err(error) => Ok(Err(ReadError::world(path, &error))),
+        }
+    });
     outcome.unwrap_or_else(|_| {
         let message = "its contents contradict each other, so it cannot be read";
         Err(ReadError::file(path, message).help("check it with usdchecker, or write it again"))
@@ -46,11 +58,18 @@ pub(super) fn with_scene<T>(
 impl Scene {
     fn open(path: &Path) -> Result<Self, ReadError> {
         // Opened by the resolver as well, but its errors would not say whose fault.
-        load(path).map_err(|refusal| refusal.of(path))?;
+        let bytes = load(path).map_err(|refusal| refusal.of(path))?;
         let absolute = std::path::absolute(path).map_err(|e| ReadError::world(path, &e))?;
         let Some(name) = absolute.to_str() else {
             return Err(ReadError::unsupported(path, "its name is not UTF-8"));
         };
+        // Under the name that references to it resolve to, so that circles close.
+        let place = absolute
+            .canonicalize()
+            .map_err(|e| ReadError::world(path, &e))?;
+        let checked = arcs::check(&ar::ResolvedPath::new(place), &bytes);
+        checked.map_err(|broken| Refusal::Broken(broken).of(path))?;
+        drop(bytes);
         let refused = Rc::new(RefCell::new(None));
         let resolver = Guarded {
             files: ar::DefaultResolver::new(),
@@ -116,6 +135,11 @@ impl Scene {
                 let message = format!("it has more than {MAX_PRIMS} prims");
                 return Err(ReadError::new(&self.path, crate::Blame::Limit, message));
             }
+            if path.prim_element_count() > MAX_DEPTH {
+                let message =
+                    format!("prims nest deeper than {MAX_DEPTH}; do they inherit themselves?");
+                return Err(self.error(&path, message));
+            }
             if !path.is_abs_root() {
                 if !self.takes_part(&path)? {
                     continue;
@@ -172,7 +196,7 @@ impl Scene {
 }
 
 /// Why a layer is not read.
-enum Refusal {
+pub(super) enum Refusal {
     World(io::Error),
     Broken(Broken),
     Unsupported(&'static str),
@@ -192,7 +216,7 @@ impl Refusal {
 }
 
 /// Reads a layer and checks it; only plain files, since a device has no end.
-fn load(path: &Path) -> Result<Vec<u8>, Refusal> {
+pub(super) fn load(path: &Path) -> Result<Vec<u8>, Refusal> {
     let file = std::fs::File::open(path).map_err(Refusal::World)?;
     let metadata = file.metadata().map_err(Refusal::World)?;
     if !metadata.is_file() {
