@@ -176,6 +176,10 @@ fn curves_of(path: &Path, kind: FileKind) -> Result<(CurveFile, Vec<Extent>), Re
             let read = read_curves_with_extents(path, None)?;
             Ok((read.file, read.extents))
         }
+        // An OBJ file of faces only is no curve file, and nothing is wrong with it.
+        FileKind::Obj if read_mesh(path, None).is_ok() => {
+            Ok((read_curves(path, None).unwrap_or_default(), Vec::new()))
+        }
         kind if kind.has_curves() => Ok((read_curves(path, None)?, Vec::new())),
         _ => Ok((CurveFile::default(), Vec::new())),
     }
@@ -201,6 +205,7 @@ impl Inspection {
         let path = self.path.clone();
         let expected = match kind {
             FileKind::Usd => has_usd_mesh(&path)?,
+            FileKind::Obj => self.curves.is_empty() || read_mesh(&path, None).is_ok(),
             kind => kind.has_meshes(),
         };
         if !expected {

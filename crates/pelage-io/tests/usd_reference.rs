@@ -2,6 +2,8 @@
 //!
 //! `reference/make_usd.py` makes the files and `usd_expected.json`.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 use pelage_curves::{Basis, Wrap};
 use pelage_io::{CurveSet, read_usd_curves, read_usd_mesh, usd_mesh_frames};
 use pelage_strands::UpAxis;
