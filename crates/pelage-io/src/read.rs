@@ -1,6 +1,8 @@
 //! Reads whatever a file holds, by what it starts with and by its extension.
 
+use crate::source::open_file;
 use crate::{CurveFile, ReadError, read_npz_curves, usd};
+use crate::{read_gltf_mesh, read_hair, read_obj_curves, read_obj_mesh, read_ply_mesh};
 use pelage_strands::UpAxis;
 use pelage_surface::PolygonMesh;
 use std::fmt;
@@ -23,30 +25,55 @@ pub struct MeshFile {
 pub enum FileKind {
     /// OpenUSD text or crate: meshes and curves.
     Usd,
+    /// Wavefront OBJ: meshes and polylines.
+    Obj,
+    /// Stanford PLY: meshes.
+    Ply,
+    /// glTF text or binary: meshes.
+    Gltf,
+    /// Cem Yuksel's hair files: curves.
+    Hair,
     /// NumPy archive: curves.
     Npz,
 }
 
 impl FileKind {
     /// All formats.
-    pub const ALL: [FileKind; 2] = [FileKind::Usd, FileKind::Npz];
+    pub const ALL: [FileKind; 6] = [
+        FileKind::Usd,
+        FileKind::Obj,
+        FileKind::Ply,
+        FileKind::Gltf,
+        FileKind::Hair,
+        FileKind::Npz,
+    ];
 
     /// Extensions, lower case, without the dot.
     pub fn extensions(self) -> &'static [&'static str] {
         match self {
             FileKind::Usd => &["usd", "usda", "usdc"],
+            FileKind::Obj => &["obj"],
+            FileKind::Ply => &["ply"],
+            FileKind::Gltf => &["gltf", "glb"],
+            FileKind::Hair => &["hair"],
             FileKind::Npz => &["npz"],
         }
     }
 
     /// Whether the format can hold meshes.
     pub fn has_meshes(self) -> bool {
-        matches!(self, FileKind::Usd)
+        matches!(
+            self,
+            FileKind::Usd | FileKind::Obj | FileKind::Ply | FileKind::Gltf
+        )
     }
 
     /// Whether the format can hold curves.
     pub fn has_curves(self) -> bool {
-        matches!(self, FileKind::Usd | FileKind::Npz)
+        matches!(
+            self,
+            FileKind::Usd | FileKind::Obj | FileKind::Hair | FileKind::Npz
+        )
     }
 
     fn of_extension(extension: &str) -> Option<Self> {
@@ -56,11 +83,16 @@ impl FileKind {
     }
 
     fn of_content(start: &[u8]) -> Option<Self> {
-        if start.starts_with(b"PXR-USDC") || start.starts_with(b"#usda") {
-            Some(FileKind::Usd)
-        } else {
-            None
-        }
+        let magics: [(&[u8], FileKind); 6] = [
+            (b"PXR-USDC", FileKind::Usd),
+            (b"#usda", FileKind::Usd),
+            (b"ply\n", FileKind::Ply),
+            (b"ply\r", FileKind::Ply),
+            (b"glTF", FileKind::Gltf),
+            (b"HAIR", FileKind::Hair),
+        ];
+        let found = magics.iter().find(|(magic, _)| start.starts_with(magic));
+        found.map(|(_, kind)| *kind)
     }
 }
 
@@ -68,6 +100,10 @@ impl fmt::Display for FileKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             FileKind::Usd => "USD",
+            FileKind::Obj => "OBJ",
+            FileKind::Ply => "PLY",
+            FileKind::Gltf => "glTF",
+            FileKind::Hair => "hair file",
             FileKind::Npz => "NumPy archive",
         })
     }
@@ -82,10 +118,24 @@ pub fn sniff(path: &Path) -> Result<FileKind, ReadError> {
 ///
 /// Without a time animated meshes give their default, or their first sample.
 pub fn read_mesh(path: &Path, time: Option<f64>) -> Result<MeshFile, ReadError> {
-    match sniff_for(path, FileKind::has_meshes)? {
-        FileKind::Usd => usd::read_usd_mesh(path, None, time),
-        kind => Err(without(path, kind, "meshes")),
-    }
+    let mesh = match sniff_for(path, FileKind::has_meshes)? {
+        FileKind::Usd => return usd::read_usd_mesh(path, None, time),
+        FileKind::Obj => read_obj_mesh(path)?,
+        FileKind::Ply => read_ply_mesh(path)?,
+        // glTF fixes both: metres, Y up.
+        FileKind::Gltf => {
+            return Ok(MeshFile {
+                mesh: read_gltf_mesh(path)?,
+                up_axis: Some(UpAxis::Y),
+                meters_per_unit: Some(1.0),
+            });
+        }
+        kind => return Err(without(path, kind, "meshes", FileKind::has_meshes)),
+    };
+    Ok(MeshFile {
+        mesh,
+        ..MeshFile::default()
+    })
 }
 
 /// Times at which the mesh of `path` is sampled, ascending; empty for a still.
@@ -93,7 +143,7 @@ pub fn mesh_frames(path: &Path) -> Result<Vec<f64>, ReadError> {
     match sniff_for(path, FileKind::has_meshes)? {
         FileKind::Usd => usd::usd_mesh_frames(path, None),
         kind if kind.has_meshes() => Ok(Vec::new()),
-        kind => Err(without(path, kind, "meshes")),
+        kind => Err(without(path, kind, "meshes", FileKind::has_meshes)),
     }
 }
 
@@ -101,27 +151,19 @@ pub fn mesh_frames(path: &Path) -> Result<Vec<f64>, ReadError> {
 pub fn read_curves(path: &Path, time: Option<f64>) -> Result<CurveFile, ReadError> {
     match sniff_for(path, FileKind::has_curves)? {
         FileKind::Usd => usd::read_usd_curves(path, time),
+        FileKind::Obj => read_obj_curves(path),
+        FileKind::Hair => read_hair(path),
         FileKind::Npz => read_npz_curves(path),
+        kind => Err(without(path, kind, "curves", FileKind::has_curves)),
     }
 }
 
 /// As [`sniff`]; errors list the formats that are `wanted`.
 fn sniff_for(path: &Path, wanted: impl Fn(FileKind) -> bool) -> Result<FileKind, ReadError> {
-    let world = |error: std::io::Error| ReadError::world(path, &error);
-    let metadata = std::fs::metadata(path).map_err(world)?;
-    if !metadata.is_file() {
-        let kind = if metadata.is_dir() {
-            "folder"
-        } else {
-            "device"
-        };
-        return Err(world(std::io::Error::other(format!(
-            "it is a {kind}, not a file"
-        ))));
-    }
     let mut start = Vec::new();
-    let file = std::fs::File::open(path).map_err(world)?;
-    file.take(16).read_to_end(&mut start).map_err(world)?;
+    let mut file = open_file(path)?.take(16);
+    let read = file.read_to_end(&mut start);
+    read.map_err(|error| ReadError::world(path, &error))?;
     let extension = path.extension().map(|e| e.to_string_lossy().into_owned());
     let extension = extension.unwrap_or_default();
     let kind = FileKind::of_content(&start).or_else(|| FileKind::of_extension(&extension));
@@ -142,8 +184,13 @@ fn extensions(wanted: impl Fn(FileKind) -> bool) -> String {
     dotted.join(", ")
 }
 
-fn without(path: &Path, kind: FileKind, what: &str) -> ReadError {
-    let readable = extensions(FileKind::has_meshes);
-    ReadError::unsupported(path, format!("a {kind} file holds no {what}"))
-        .help(format!("meshes are read from {readable}"))
+/// The error that a format never holds what is `wanted` of it.
+fn without(
+    path: &Path,
+    kind: FileKind,
+    what: &str,
+    wanted: impl Fn(FileKind) -> bool,
+) -> ReadError {
+    ReadError::unsupported(path, format!("a file of the kind {kind} holds no {what}"))
+        .help(format!("{what} are read from {}", extensions(wanted)))
 }

@@ -7,9 +7,15 @@ use crate::{Blame, ReadError};
 use std::fs;
 use std::path::Path;
 
-/// All bytes of the regular file `path`. Folders, devices and pipes are refused:
-/// the latter two may never end.
+/// All bytes of the regular file `path`.
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
+    open_file(path)?;
+    fs::read(path).map_err(|error| ReadError::world(path, &error))
+}
+
+/// The regular file `path`, open. Folders, devices and pipes are refused: the
+/// latter two may never end.
+pub(crate) fn open_file(path: &Path) -> Result<fs::File, ReadError> {
     let found = fs::metadata(path).map_err(|error| ReadError::world(path, &error))?;
     if found.is_dir() {
         return Err(ReadError::new(
@@ -25,5 +31,5 @@ pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
             "this is a device or pipe; only regular files can be read",
         ));
     }
-    fs::read(path).map_err(|error| ReadError::world(path, &error))
+    fs::File::open(path).map_err(|error| ReadError::world(path, &error))
 }

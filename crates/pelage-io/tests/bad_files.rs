@@ -25,6 +25,9 @@ const READERS: &[(&str, Reader)] = &[
     ("ply", |path| pelage_io::read_ply_mesh(path).map(drop)),
 ];
 
+/// Folders tried by `bad_usd.rs`: scenes are read around what is wrong in them.
+const ELSEWHERE: [&str; 3] = ["npz", "usda", "usdc"];
+
 fn bad() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad")
 }
@@ -79,7 +82,8 @@ fn every_bad_file_is_refused_in_plain_words_and_every_odd_one_is_read() {
 fn every_folder_of_bad_files_has_a_reader() {
     for folder in entries(&bad()).iter().filter(|path| path.is_dir()) {
         let name = folder.file_name().unwrap().to_str().unwrap();
-        assert!(READERS.iter().any(|(known, _)| *known == name), "{name}");
+        let known = READERS.iter().any(|(known, _)| *known == name);
+        assert!(known || ELSEWHERE.contains(&name), "{name}");
     }
 }
 

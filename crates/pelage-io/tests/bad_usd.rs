@@ -2,6 +2,8 @@
 //!
 //! `bad/make_bad.py` makes the files in `bad/usda`, `bad/usdc` and `bad/npz`.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 use pelage_io::{Blame, inspect, read_curves, read_mesh, read_usd_mesh};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
@@ -34,6 +36,7 @@ fn read_all(path: &Path) -> Option<String> {
     {
         let text = error.to_string();
         assert!(!error.message.is_empty() && text.len() < 2000, "{text}");
+        assert!(!text.contains('\n'), "{text}");
         assert!(text.contains(&path.display().to_string()), "{text}");
     }
     let problem = match inspect(path) {

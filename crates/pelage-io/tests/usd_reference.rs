@@ -2,6 +2,8 @@
 //!
 //! `reference/make_usd.py` makes the files and `usd_expected.json`.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 use pelage_curves::{Basis, Wrap};
 use pelage_io::{CurveSet, read_usd_curves, read_usd_mesh, usd_mesh_frames};
 use pelage_strands::UpAxis;
@@ -159,6 +161,15 @@ fn curves_of_every_basis_keep_vertices_widths_and_attributes() {
             }
         }
     }
+}
+
+#[test]
+fn arrays_that_pack_extremely_well_are_read() {
+    let read = read_usd_curves(&reference("packed.usdc"), None).unwrap();
+    let ones = &read.sets[0].attributes;
+    let ones = ones.iter().find(|a| a.name == "primvars:ones").unwrap();
+    assert_eq!(ones.count, 100_000);
+    assert_eq!(read.sets[0].faults, []);
 }
 
 /// The folder of shared test data, if this checkout has one.

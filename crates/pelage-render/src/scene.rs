@@ -38,8 +38,8 @@ impl<'a> Scene<'a> {
     pub fn bounds(&self) -> Bounds {
         let mut bounds = Bounds::default();
         let strands = self.strands.iter().flat_map(|s| s.points.iter());
-        let surface = self.surface.iter().flat_map(|m| m.positions.iter());
-        for &p in strands.chain(surface) {
+        let surface = self.surface.iter().flat_map(|m| m.positions().iter());
+        for p in strands.copied().chain(surface.map(|p| p.to_array())) {
             if p.iter().all(|x| x.is_finite()) {
                 bounds.add(p, 0.0);
             }
@@ -51,9 +51,6 @@ impl<'a> Scene<'a> {
     pub(crate) fn check(&self) -> Result<(), RenderError> {
         for strands in &self.strands {
             check_strands(strands)?;
-        }
-        if let Some(mesh) = self.surface {
-            check_mesh(mesh)?;
         }
         let color = self.surface_color;
         if color.iter().any(|c| !(0.0..=1.0).contains(c)) {
@@ -91,24 +88,4 @@ fn check_strands(strands: &StrandBuffer) -> Result<(), RenderError> {
         }
     }
     Ok(())
-}
-
-fn check_mesh(mesh: &Mesh) -> Result<(), RenderError> {
-    let (found, expected) = (mesh.normals.len(), mesh.triangles.len());
-    if found != 0 && found != expected {
-        return Err(RenderError::WrongCount {
-            array: "normals",
-            found,
-            expected,
-        });
-    }
-    let vertices = mesh.positions.len();
-    let outside = |t: &[u32; 3]| t.iter().any(|&v| v as usize >= vertices);
-    match mesh.triangles.iter().position(outside) {
-        Some(entry) => Err(RenderError::OutOfRange {
-            array: "triangles",
-            entry,
-        }),
-        None => Ok(()),
-    }
 }

@@ -33,8 +33,8 @@ impl<'a> Skin<'a> {
     pub fn new(scene: &Scene<'a>, frame: &Frame) -> Self {
         let mesh = scene.surface;
         let corners = mesh.map_or(Vec::new(), |mesh| {
-            let place = |v: u32| frame.place(mesh.positions[v as usize]);
-            mesh.triangles.iter().map(|t| t.map(place)).collect()
+            let place = |v: u32| frame.place(mesh.positions()[v as usize].to_array());
+            mesh.triangles().iter().map(|t| t.map(place)).collect()
         });
         Self {
             mesh,
@@ -47,8 +47,8 @@ impl<'a> Skin<'a> {
     /// Gathers the sky's light for every vertex.
     pub fn light(&mut self, occluders: Occluders, lighting: &Lighting) {
         let Some(mesh) = self.mesh else { return };
-        let mut places = vec![(Vec3::ZERO, Vec3::ZERO); mesh.positions.len()];
-        for (t, triangle) in mesh.triangles.iter().enumerate() {
+        let mut places = vec![(Vec3::ZERO, Vec3::ZERO); mesh.positions().len()];
+        for (t, triangle) in mesh.triangles().iter().enumerate() {
             for (k, &vertex) in triangle.iter().enumerate() {
                 let place = &mut places[vertex as usize];
                 place.0 = self.corners[t][k];
@@ -67,10 +67,10 @@ impl<'a> Skin<'a> {
     /// Normal at corner `k` of triangle `t`, flat where the mesh gives none.
     fn normal(&self, t: usize, k: usize) -> Vec3 {
         let [a, b, c] = self.corners[t];
-        let given = self.mesh.and_then(|mesh| mesh.normals.get(t));
         let flat = || (b - a).cross(c - a).try_normalize().unwrap_or(Vec3::Y);
-        let given = given.and_then(|n| Vec3::from(n[k]).try_normalize());
-        given.unwrap_or_else(flat)
+        self.mesh
+            .and_then(|mesh| mesh.normals()[t][k].try_normalize())
+            .unwrap_or_else(flat)
     }
 
     /// Radiance of the surface at `hit`, seen along `direction`. `seed` picks the
@@ -92,7 +92,7 @@ impl<'a> Skin<'a> {
         let normal = normal.try_normalize().unwrap_or(-direction);
         let normal = if normal.dot(direction) > 0.0 { -normal } else { normal };
         let sky = self.mesh.map_or(Rgb::ZERO, |mesh| {
-            let sky = mesh.triangles[t].map(|v| self.sky[v as usize]);
+            let sky = mesh.triangles()[t].map(|v| self.sky[v as usize]);
             sky[0] * u + sky[1] * v + sky[2] * w
         });
         // Away from the face that was hit, so that it does not shade itself.

@@ -7,6 +7,7 @@
 //! numbers are of 32 or 64 bits, integers too, signed or not.
 
 use crate::layout::Layout;
+use crate::source::read_bytes;
 use crate::{AttributeInfo, CurveFile, CurveSet, ReadError};
 use npyz::npz::NpzArchive;
 use npyz::{NpyFile, Order};
@@ -46,12 +47,7 @@ enum Numbers {
 /// arrays that do not fit are left out and listed in
 /// [`CurveSet::faults`](crate::CurveSet::faults).
 pub fn read_npz_curves(path: &Path) -> Result<CurveFile, ReadError> {
-    let metadata = std::fs::metadata(path).map_err(|e| ReadError::world(path, &e))?;
-    if !metadata.is_file() {
-        let error = std::io::Error::other("it is not a file");
-        return Err(ReadError::world(path, &error));
-    }
-    let bytes = std::fs::read(path).map_err(|e| ReadError::world(path, &e))?;
+    let bytes = read_bytes(path)?;
     // The archive reader is old and indexes what it reads; sizes are checked here.
     let arrays = catch_unwind(|| read_arrays(path, &bytes)).unwrap_or_else(|_| {
         let message = "it is no sound zip archive";
@@ -74,7 +70,11 @@ fn read_arrays(path: &Path, bytes: &[u8]) -> Result<BTreeMap<String, Array>, Rea
     let mut arrays = BTreeMap::new();
     for name in names {
         let file = npyz::npz::file_name_from_array_name(&name);
-        let error = |message: String| ReadError::file(path, message).at(name.clone());
+        let error = |message: String| {
+            // Errors of the header's parser draw pictures below their first line.
+            let line = message.lines().next().unwrap_or_default();
+            ReadError::file(path, line).at(name.clone())
+        };
         let entry = archive.zip_archive().by_name(&file);
         let entry = entry.map_err(|e| error(e.to_string()))?;
         let mut contents = Vec::new();

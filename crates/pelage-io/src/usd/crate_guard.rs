@@ -124,7 +124,7 @@ impl<'a> Sections<'a> {
 fn read_tokens(section: &mut Cursor, budget: &Budget) -> Result<Vec<u32>, Broken> {
     let count = section.u64()?;
     let size = section.u64()?;
-    let text = section.decompress(size, budget)?;
+    let text = section.decompress(size, size, budget)?;
     if text.len() as u64 != size {
         return Err(Broken("its tokens unpack to a wrong size".into()));
     }
@@ -152,7 +152,7 @@ fn read_fields(section: &mut Cursor, tokens: usize, budget: &Budget) -> Result<V
     let size = count
         .checked_mul(8)
         .ok_or_else(|| Broken(format!("it claims {count} fields")))?;
-    let reps = section.decompress(size, budget)?;
+    let reps = section.decompress(size, size, budget)?;
     if reps.len() as u64 != size {
         return Err(Broken("its fields unpack to a wrong size".into()));
     }

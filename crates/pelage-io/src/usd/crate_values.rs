@@ -1,7 +1,7 @@
 //! How many bytes a value of a `.usdc` file takes once decoded.
 
 use super::crate_guard::{Budget, Tables};
-use super::cursor::{Broken, Cursor, encoded_size};
+use super::cursor::{Broken, Cursor, encoded_sizes};
 
 /// Levels of dictionaries and time samples within values.
 const MAX_DEPTH: u32 = 32;
@@ -191,8 +191,8 @@ impl<'a> Values<'a> {
                 code => return Err(Broken(format!("an array is packed in the way {code}"))),
             }
         }
-        let most = encoded_size(count.min(1 << 48));
-        at.packed(most)?;
+        let (least, most) = encoded_sizes(count.min(1 << 48));
+        at.packed(least)?;
         Ok(SMALL + count.saturating_mul(size.max(4)) + 2 * most)
     }
 

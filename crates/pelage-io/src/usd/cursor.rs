@@ -103,7 +103,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Checks the size of a packed block and gives the block.
+    /// Checks the size of a packed block, which unpacks to `unpacked` bytes or more,
+    /// and gives the block.
     pub(super) fn packed(&mut self, unpacked: u64) -> Result<&'a [u8], Broken> {
         let size = self.u64()?;
         self.room_for(size, 1)?;
@@ -115,10 +116,15 @@ impl<'a> Cursor<'a> {
         self.take(size as usize)
     }
 
-    /// Unpacks a block of at most `unpacked` bytes.
-    pub(super) fn decompress(&mut self, unpacked: u64, budget: &Budget) -> Result<Vec<u8>, Broken> {
-        let packed = self.packed(unpacked)?;
-        budget.spend(unpacked)?;
+    /// Unpacks a block of between `least` and `most` bytes.
+    pub(super) fn decompress(
+        &mut self,
+        least: u64,
+        most: u64,
+        budget: &Budget,
+    ) -> Result<Vec<u8>, Broken> {
+        let packed = self.packed(least)?;
+        budget.spend(most)?;
         let Some((&chunks, block)) = packed.split_first() else {
             return Err(Broken("a packed block is empty".into()));
         };
@@ -126,7 +132,7 @@ impl<'a> Cursor<'a> {
         if chunks != 0 {
             return Err(Broken(format!("a packed block has {chunks} chunks")));
         }
-        let mut output = vec![0; unpacked as usize];
+        let mut output = vec![0; most as usize];
         let size = lz4_flex::decompress_into(block, &mut output)
             .map_err(|error| Broken(format!("a packed block cannot be unpacked: {error}")))?;
         output.truncate(size);
@@ -142,7 +148,8 @@ impl<'a> Cursor<'a> {
             return Ok(Vec::new());
         }
         let codes = count.div_ceil(4);
-        let data = self.decompress(encoded_size(count), budget)?;
+        let (least, most) = encoded_sizes(count);
+        let data = self.decompress(least, most, budget)?;
         let mut code = Cursor::at(&data, 0)?;
         let common = code.u32()?;
         let mut rest = Cursor::at(&data, 4 + codes)?;
@@ -163,7 +170,9 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// Bytes that `count` coded 32-bit integers take before packing, at most.
-pub(super) fn encoded_size(count: u64) -> u64 {
-    4 + count.div_ceil(4) + 4 * count
+/// Bytes that `count` coded 32-bit integers take before packing: where all
+/// differences are the common one, and where none fits in fewer than four bytes.
+pub(super) fn encoded_sizes(count: u64) -> (u64, u64) {
+    let least = 4 + count.div_ceil(4);
+    (least, least + 4 * count)
 }

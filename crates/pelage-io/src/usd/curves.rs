@@ -19,6 +19,8 @@ pub(crate) struct CurvesWithExtent {
     pub(crate) file: CurveFile,
     /// One entry a set.
     pub(crate) extents: Vec<Extent>,
+    /// Whether the file has a mesh as well.
+    pub(crate) has_mesh: bool,
 }
 
 /// What a prim says of its size, in its own space.
@@ -43,6 +45,7 @@ pub(crate) fn read_curves_with_extents(
                 meters_per_unit: metadata.meters_per_unit,
             },
             extents: Vec::new(),
+            has_mesh: !scene.prims("Mesh")?.is_empty(),
         };
         for prim in scene.prims("BasisCurves")? {
             let (set, extent) = Reader::new(scene, &prim, time)?.read()?;
@@ -272,7 +275,7 @@ impl<'a> Reader<'a> {
             hair_id: ids.into_iter().map(|id| id as u64).collect(),
             strand_id: self.uniform_u32(&layout, "primvars:strandId")?,
             root_uv: self.uniform(&layout, "primvars:st")?,
-            strand_uv: self.uniform(&layout, "primvars:strandSt")?,
+            strand_uv: self.uniform(&layout, "primvars:strandUv")?,
             group: self.uniform_u32(&layout, "primvars:group")?,
             triangle: self.uniform_u32(&layout, "primvars:triangle")?,
             barycentric: self.uniform(&layout, "primvars:barycentric")?,

@@ -17,7 +17,7 @@ mod text_guard;
 mod values;
 mod xform;
 
-pub(crate) use curves::{Extent, read_curves_with_extents};
+pub(crate) use curves::{CurvesWithExtent, Extent, read_curves_with_extents};
 
 use crate::{CurveFile, MeshFile, ReadError};
 use openusd::sdf;
@@ -45,11 +45,6 @@ pub fn read_usd_mesh(
             meters_per_unit: metadata.meters_per_unit,
         })
     })
-}
-
-/// Whether `path` has a mesh.
-pub(crate) fn has_usd_mesh(path: &Path) -> Result<bool, ReadError> {
-    with_scene(path, |scene| Ok(!scene.prims("Mesh")?.is_empty()))
 }
 
 /// Times at which the meshes of `path` (see [`read_usd_mesh`]) are sampled,

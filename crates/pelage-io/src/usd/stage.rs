@@ -3,6 +3,7 @@
 use super::cursor::Broken;
 use super::{arcs, crate_guard, text_guard};
 use crate::ReadError;
+use crate::source::read_bytes;
 use openusd::{ar, sdf, usd};
 use pelage_strands::UpAxis;
 use std::cell::RefCell;
@@ -58,7 +59,7 @@ pub(super) fn with_scene<T: Send>(
 impl Scene {
     fn open(path: &Path) -> Result<Self, ReadError> {
         // Opened by the resolver as well, but its errors would not say whose fault.
-        let bytes = load(path).map_err(|refusal| refusal.of(path))?;
+        let bytes = load(path)?;
         let absolute = std::path::absolute(path).map_err(|e| ReadError::world(path, &e))?;
         let Some(name) = absolute.to_str() else {
             return Err(ReadError::unsupported(path, "its name is not UTF-8"));
@@ -68,7 +69,7 @@ impl Scene {
             .canonicalize()
             .map_err(|e| ReadError::world(path, &e))?;
         let checked = arcs::check(&ar::ResolvedPath::new(place), &bytes);
-        checked.map_err(|broken| Refusal::Broken(broken).of(path))?;
+        checked.map_err(|broken| unsound(path, broken))?;
         drop(bytes);
         let refused = Rc::new(RefCell::new(None));
         let resolver = Guarded {
@@ -79,9 +80,9 @@ impl Scene {
         let stage = stage.map_err(|error| {
             let message = match refused.borrow_mut().take() {
                 Some(message) => message,
-                None => format!("it is no sound USD: {error:#}"),
+                None => format!("no sound USD: {error:#}"),
             };
-            ReadError::file(path, message)
+            ReadError::file(path, one_line(&message))
         })?;
         Ok(Self {
             path: path.into(),
@@ -100,7 +101,9 @@ impl Scene {
         place: impl Display,
         result: Result<T, impl Display>,
     ) -> Result<T, ReadError> {
-        result.map_err(|error| self.error(place, format!("it cannot be decoded: {error:#}")))
+        result.map_err(|error| {
+            self.error(place, one_line(&format!("it cannot be decoded: {error:#}")))
+        })
     }
 
     /// Up axis and metres a unit, where the stage says.
@@ -177,7 +180,7 @@ impl Scene {
     /// hair on half a creature is worse than an error.
     fn unresolved(&self) -> Result<(), ReadError> {
         match self.stage.composition_errors().first() {
-            Some(error) => Err(ReadError::file(&self.path, error.to_string())
+            Some(error) => Err(ReadError::file(&self.path, one_line(&error.to_string()))
                 .help("put the file it names in place, or flatten the stage first")),
             None => Ok(()),
         }
@@ -195,51 +198,33 @@ impl Scene {
     }
 }
 
-/// Why a layer is not read.
-pub(super) enum Refusal {
-    World(io::Error),
-    Broken(Broken),
-    Unsupported(&'static str),
-}
-
-impl Refusal {
-    fn of(self, path: &Path) -> ReadError {
-        match self {
-            Refusal::World(error) => ReadError::world(path, &error),
-            Refusal::Broken(Broken(what)) => {
-                ReadError::file(path, format!("it is no sound USD: {what}"))
-            }
-            Refusal::Unsupported(what) => ReadError::unsupported(path, what)
-                .help("unpack it (it is a zip archive) and read the layer inside"),
-        }
+/// Reads a layer and checks it.
+pub(super) fn load(path: &Path) -> Result<Vec<u8>, ReadError> {
+    let bytes = read_bytes(path)?;
+    if bytes.starts_with(b"PK") {
+        return Err(ReadError::unsupported(path, "USDZ packages are not read")
+            .help("unpack it (it is a zip archive) and read the layer inside"));
     }
-}
-
-/// Reads a layer and checks it; only plain files, since a device has no end.
-pub(super) fn load(path: &Path) -> Result<Vec<u8>, Refusal> {
-    let file = std::fs::File::open(path).map_err(Refusal::World)?;
-    let metadata = file.metadata().map_err(Refusal::World)?;
-    if !metadata.is_file() {
-        let kind = if metadata.is_dir() {
-            "folder"
-        } else {
-            "device"
-        };
-        let error = io::Error::other(format!("it is a {kind}, not a file"));
-        return Err(Refusal::World(error));
-    }
-    let bytes = std::fs::read(path).map_err(Refusal::World)?;
-    if bytes.starts_with(openusd::usdc::MAGIC) {
-        crate_guard::check(&bytes).map_err(Refusal::Broken)?;
-    } else if bytes.starts_with(b"PK") {
-        return Err(Refusal::Unsupported("USDZ packages are not read"));
-    } else if !bytes.trim_ascii_start().starts_with(b"#usda") {
-        let message = "it starts neither with #usda nor with PXR-USDC";
-        return Err(Refusal::Broken(Broken(message.into())));
+    let checked = if bytes.starts_with(openusd::usdc::MAGIC) {
+        crate_guard::check(&bytes)
+    } else if bytes.trim_ascii_start().starts_with(b"#usda") {
+        text_guard::check(&bytes)
     } else {
-        text_guard::check(&bytes).map_err(Refusal::Broken)?;
-    }
+        Err(Broken(
+            "it starts neither with #usda nor with PXR-USDC".into(),
+        ))
+    };
+    checked.map_err(|broken| unsound(path, broken))?;
     Ok(bytes)
+}
+
+/// The first line of a message; some parsers draw pictures below it.
+fn one_line(message: &str) -> String {
+    message.lines().next().unwrap_or_default().into()
+}
+
+fn unsound(path: &Path, Broken(what): Broken) -> ReadError {
+    ReadError::file(path, format!("no sound USD: {what}"))
 }
 
 /// Finds files as usual and checks every layer before it is parsed.
@@ -270,7 +255,7 @@ impl ar::Resolver for Guarded {
         match load(resolved) {
             Ok(bytes) => Ok(Box::new(io::Cursor::new(bytes))),
             Err(refusal) => {
-                let message = refusal.of(resolved).to_string();
+                let message = refusal.to_string();
                 *self.refused.borrow_mut() = Some(message.clone());
                 Err(io::Error::other(message))
             }

@@ -190,7 +190,20 @@ def read_curves(prim, time):
     }
 
 
+def packed(name):
+    """A constant array, which packs 2,000 to 1: no reason to distrust a file."""
+    stage = Usd.Stage.CreateNew(name)
+    prim = UsdGeom.BasisCurves.Define(stage, "/hair")
+    prim.CreateTypeAttr("linear")
+    prim.CreateCurveVertexCountsAttr([2])
+    prim.CreatePointsAttr([(0, 0, 0), (0, 0, 1)])
+    ones = UsdGeom.PrimvarsAPI(prim).CreatePrimvar("ones", Sdf.ValueTypeNames.IntArray)
+    ones.Set([1] * 100_000)
+    stage.Save()
+
+
 def main():
+    packed("packed.usdc")
     expected = {"meshes": {}, "curves": {}}
     stage = meshes("meshes.usda")
     stage.Export("meshes.usdc")
