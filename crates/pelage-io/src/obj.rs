@@ -117,8 +117,9 @@ impl Obj {
                 .map_err(|message| ReadError::file(path, message).at(format!("line {line}")))?;
         }
         obj.check_indices_ahead(path)?;
-        let counts = [obj.positions.len(), obj.uvs.len(), obj.normals.len()];
-        if counts.iter().any(|&count| count >= ABSENT as usize) {
+        let lists = [obj.positions.len(), obj.uvs.len(), obj.normals.len()];
+        let longest = lists.into_iter().max().max(Some(obj.line_corners.len()));
+        if longest >= Some(ABSENT as usize) {
             let message = format!("a list has more than {} entries", ABSENT - 1);
             return Err(ReadError::new(path, Blame::Limit, message));
         }
@@ -263,8 +264,7 @@ impl Obj {
         let mut curves = StrandBuffer::new();
         let corners = &self.line_corners;
         curves.points = gather(&self.positions, corners.iter().map(|c| c.vertex));
-        // Every polyline names its vertices in the text, at 2 bytes each or more,
-        // and files of 8 GiB of nothing else do not matter.
+        // `parse` refused more corners than u32 can count.
         let ends = self.line_ends.iter().map(|&end| end as u32);
         curves.offsets = std::iter::once(0).chain(ends).collect();
         let roots = curves.offsets[..curves.len()].iter();
