@@ -13,17 +13,19 @@ import sys
 from pxr import Sdf, Usd, UsdGeom
 import numpy as np
 
+stages = []
+
 def opened(path):
-    stage = Usd.Stage.Open(path)
-    assert stage and not stage.GetCompositionErrors() if hasattr(stage, 'GetCompositionErrors') else stage
-    return stage
+    # Prims do not keep their stage alive.
+    stages.append(Usd.Stage.Open(path))
+    return stages[-1]
 
 def hair(stage):
     return UsdGeom.BasisCurves(stage.GetDefaultPrim().GetChild('hair'))
 
 def primvar(curves, name):
     p = UsdGeom.PrimvarsAPI(curves).GetPrimvar(name)
-    return (str(p.GetTypeName()), str(p.GetInterpolation()), np.array(p.Get())) if p else None
+    return (str(p.GetTypeName()), str(p.GetInterpolation()), np.array(p.Get())) if p.HasAuthoredValue() else None
 
 def everything(path):
     layer = Sdf.Layer.FindOrOpen(path)
