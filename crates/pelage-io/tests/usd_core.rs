@@ -1,5 +1,7 @@
 //! USD files as OpenUSD itself reads them (`pip install usd-core numpy`).
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
+
 mod support;
 
 use pelage_io::WriteOptions;

@@ -1,5 +1,6 @@
 //! Strands to write, and Python to read the files back with.
 #![allow(dead_code, reason = "every test program uses another part")]
+#![allow(clippy::unwrap_used, reason = "these are tests too")]
 
 use pelage_io::{WriteOptions, sink_for};
 use pelage_strands::{SinkError, StrandBuffer, StrandMeta, StreamInfo};
