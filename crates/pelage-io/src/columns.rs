@@ -115,13 +115,28 @@ impl Ends {
         }
         scratch.clear();
         scratch.reserve(bytes.len() + 2 * stride * strands.len());
-        for ends in strands.offsets.windows(2) {
-            let (start, end) = (ends[0] as usize * stride, ends[1] as usize * stride);
-            scratch.extend_from_slice(&bytes[start..start + stride]);
-            scratch.extend_from_slice(&bytes[start..end]);
-            scratch.extend_from_slice(&bytes[end - stride..end]);
+        match stride {
+            4 => double_ends::<4>(bytes, &strands.offsets, scratch),
+            12 => double_ends::<12>(bytes, &strands.offsets, scratch),
+            _ => unreachable!("what is written a vertex has one or three floats"),
         }
         scratch
+    }
+}
+
+/// Entries of `N` bytes with each strand's first and last one twice. `N` is known
+/// when compiling because single entries are copied all the time.
+fn double_ends<const N: usize>(bytes: &[u8], offsets: &[u32], out: &mut Vec<u8>) {
+    let (entries, _) = bytes.as_chunks::<N>();
+    for ends in offsets.windows(2) {
+        let strand = &entries[ends[0] as usize..ends[1] as usize];
+        if let [first, .., last] = strand {
+            out.extend_from_slice(first);
+            out.extend_from_slice(strand.as_flattened());
+            out.extend_from_slice(last);
+        } else if let [lone] = strand {
+            out.extend_from_slice([*lone; 3].as_flattened());
+        }
     }
 }
 

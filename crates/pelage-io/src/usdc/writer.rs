@@ -6,7 +6,7 @@ use super::value::{Kind, ValueRep};
 use crate::columns::{Column, Content, Field, Scalar};
 use crate::file_sink::{Stream, file_sink};
 use crate::hair_prim::{self, attribute};
-use crate::recorder::{Recorded, Recorder, Tally};
+use crate::recorder::{Recorder, Tally};
 use crate::write::WriteOptions;
 use pelage_strands::{Bounds, StrandBuffer, StreamInfo};
 use std::io;
