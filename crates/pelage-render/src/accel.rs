@@ -72,7 +72,10 @@ impl Layers {
     /// Adds a layer; returns the depth behind which nothing matters any more.
     fn insert(&mut self, layer: Layer, far: f32) -> f32 {
         let before = |l: &Layer| (l.t, l.leaf) < (layer.t, layer.leaf);
-        let at = self.layers[..self.count].iter().take_while(|l| before(l)).count();
+        let at = self.layers[..self.count]
+            .iter()
+            .take_while(|l| before(l))
+            .count();
         if at == MOST_LAYERS {
             return far;
         }
@@ -142,7 +145,12 @@ impl CurveTree {
                     let (a, b) = (cuts.looks[i][3], cuts.looks[i + 1][3]);
                     let opacity = a + (b - a) * s;
                     if opacity > 0.0 {
-                        let layer = Layer { t, leaf, s, opacity };
+                        let layer = Layer {
+                            t,
+                            leaf,
+                            s,
+                            opacity,
+                        };
                         boxed.tmax = found.insert(layer, boxed.tmax);
                     }
                 }
@@ -151,8 +159,9 @@ impl CurveTree {
         found
     }
 
-    /// How many opaque hairs' worth `ray` crosses after `near`, leaving out the
+    /// What the faster shadows are tested against: how many opaque hairs' worth `ray` crosses after `near`, leaving out the
     /// leaves that start at cuts in `own`; looks no further than `enough` of them.
+    #[cfg(test)]
     pub fn crossings(
         &self,
         cuts: &Cuts,
@@ -254,7 +263,11 @@ impl SurfaceTree {
                     && best.is_none_or(|b| (t, triangle) < (b.t, b.triangle))
                 {
                     boxed.tmax = t;
-                    best = Some(SurfaceHit { t, triangle, weights });
+                    best = Some(SurfaceHit {
+                        t,
+                        triangle,
+                        weights,
+                    });
                 }
             }
         );
@@ -267,10 +280,12 @@ impl SurfaceTree {
             return false;
         }
         let boxed = boxed_ray(ray, near, f32::INFINITY);
-        !self.bvh.ray_traverse_miss(boxed, |_, k| match meet(ray, &self.triangles[k].0) {
-            Some((t, _)) if t > near => t,
-            _ => f32::INFINITY,
-        })
+        !self
+            .bvh
+            .ray_traverse_miss(boxed, |_, k| match meet(ray, &self.triangles[k].0) {
+                Some((t, _)) if t > near => t,
+                _ => f32::INFINITY,
+            })
     }
 }
 

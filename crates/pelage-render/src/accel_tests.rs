@@ -13,7 +13,8 @@ fn random_cuts(count: u32, seed: u32) -> Cuts {
         for k in 0..4 {
             let n = |axis: u32| number(i, axis) + 0.2 * number(i, 10 + 3 * k + axis);
             cuts.places.push([n(0), n(1), n(2), 0.01]);
-            cuts.looks.push([0.5, 0.5, 0.5, if i % 3 == 0 { 1.0 } else { 0.4 }]);
+            cuts.looks
+                .push([0.5, 0.5, 0.5, if i % 3 == 0 { 1.0 } else { 0.4 }]);
         }
         cuts.starts.push(cuts.places.len() as u32);
     }
@@ -35,7 +36,12 @@ fn layers_by_looking(cuts: &Cuts, ray: &Ray, round: bool) -> Vec<Layer> {
             let (t, s) = cross(ray, &cuts.places[i], &cuts.places[i + 1], round)?;
             let (a, b) = (cuts.looks[i][3], cuts.looks[i + 1][3]);
             let opacity = a + (b - a) * s;
-            (t >= 0.0).then_some(Layer { t, leaf, s, opacity })
+            (t >= 0.0).then_some(Layer {
+                t,
+                leaf,
+                s,
+                opacity,
+            })
         })
         .collect();
     all.sort_by(|a, b| (a.t, a.leaf).partial_cmp(&(b.t, b.leaf)).unwrap());
@@ -85,7 +91,10 @@ fn crossings_count_every_leaf_but_ones_own() {
             })
             .sum();
         let found = tree.crossings(&cuts, &ray, 0.1, own, 100.0);
-        assert!((found - by_looking).abs() < 0.02, "{found} for {by_looking}");
+        assert!(
+            (found - by_looking).abs() < 0.02,
+            "{found} for {by_looking}"
+        );
     }
 }
 

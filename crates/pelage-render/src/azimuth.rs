@@ -5,7 +5,7 @@
 //! distributions, as Karis fitted them ("Physically Based Hair Shading in Unreal",
 //! SIGGRAPH 2016, slides 30 to 37), with the concentration set by roughness.
 
-use crate::longitudinal::log_bessel;
+use crate::longitudinal::scaled_bessel;
 use std::f32::consts::TAU;
 
 /// Density of reflected light at the azimuth whose cosine is `cos_phi`.
@@ -23,7 +23,7 @@ pub(crate) fn sloped(cos_phi: f32, slope: f32) -> f32 {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct VonMises {
     concentration: f32,
-    log_norm: f32,
+    norm: f32,
 }
 
 impl VonMises {
@@ -31,13 +31,13 @@ impl VonMises {
     pub fn new(concentration: f32) -> Self {
         Self {
             concentration,
-            log_norm: log_bessel(concentration) + libm::logf(TAU),
+            norm: 1.0 / (TAU * scaled_bessel(concentration)),
         }
     }
 
     /// Density at the azimuth whose cosine is `cos_phi`.
     pub fn density(&self, cos_phi: f32) -> f32 {
-        libm::expf(self.concentration * cos_phi - self.log_norm)
+        self.norm * libm::expf(self.concentration * (cos_phi - 1.0))
     }
 }
 
@@ -57,7 +57,9 @@ mod tests {
         ];
         for (k, shape) in shapes.iter().enumerate() {
             let n = 2000;
-            let sum: f32 = (0..n).map(|i| shape((i as f32 / n as f32 * TAU).cos())).sum();
+            let sum: f32 = (0..n)
+                .map(|i| shape((i as f32 / n as f32 * TAU).cos()))
+                .sum();
             let integral = sum * TAU / n as f32;
             assert!((integral - 1.0).abs() < 2e-3, "shape {k}: {integral}");
         }

@@ -24,8 +24,8 @@ pub enum Backdrop {
 impl Default for Backdrop {
     fn default() -> Self {
         Self::Studio {
-            floor: [0.47, 0.455, 0.435],
-            wall: [0.20, 0.215, 0.235],
+            floor: [0.46, 0.445, 0.425],
+            wall: [0.15, 0.165, 0.185],
         }
     }
 }
@@ -54,7 +54,7 @@ impl Backdrop {
                 let Some(floor) = floor else { return wall };
                 // The cove: from floor to wall over a band around the horizon.
                 let height = direction.dot(floor.up);
-                let far = low.lerp(wall, smoothstep(-0.24, 0.16, height));
+                let far = low.lerp(wall, smoothstep(-0.36, 0.3, height));
                 match floor.meet(eye, direction) {
                     Some(p) => far * floor.light(p),
                     None => far * floor.edge(),

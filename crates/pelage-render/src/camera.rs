@@ -1,7 +1,7 @@
 //! Where the picture is taken from.
 
-use crate::{RenderError, UpAxis};
-use glam::Vec3;
+use crate::{RenderError, Scene, UpAxis};
+use glam::DVec3;
 use pelage_strands::Bounds;
 
 /// A pinhole camera, positions in world space.
@@ -27,34 +27,65 @@ impl Camera {
     ///
     /// Empty bounds are taken for the unit cube around the origin.
     pub fn framing(bounds: &Bounds, up: UpAxis, aspect: f32) -> Self {
-        Self::framing_from(bounds, up, aspect, 38.0, 13.0)
+        let (low, high) = solid(bounds);
+        let corner =
+            |i: usize| std::array::from_fn(|k| if i >> k & 1 == 0 { low[k] } else { high[k] });
+        let corners: [[f32; 3]; 8] = std::array::from_fn(corner);
+        Self::fitting(&corners, up, aspect, 38.0, 13.0)
     }
 
-    /// As [`Camera::framing`], with the azimuth (degrees from the front, towards
-    /// +X) and the elevation (degrees over the horizon) given.
-    pub fn framing_from(
-        bounds: &Bounds,
-        up: UpAxis,
-        aspect: f32,
-        azimuth: f32,
-        elevation: f32,
-    ) -> Self {
+    /// A camera that shows all of `scene`, as near as it can be: unlike
+    /// [`Camera::framing`] it looks at every vertex. `azimuth` is in degrees from the
+    /// front towards +X, `elevation` in degrees over the horizon, −89..=89.
+    pub fn portrait(scene: &Scene, up: UpAxis, aspect: f32, azimuth: f32, elevation: f32) -> Self {
+        let finite: Vec<[f32; 3]> = scene.finite_points().collect();
+        let bounds = scene.bounds();
+        if finite.is_empty() || bounds.min == bounds.max {
+            return Self::framing(&bounds, up, aspect);
+        }
+        Self::fitting(&finite, up, aspect, azimuth, elevation)
+    }
+
+    /// The nearest camera in the given direction whose picture holds all `points`.
+    fn fitting(points: &[[f32; 3]], up: UpAxis, aspect: f32, azimuth: f32, elevation: f32) -> Self {
+        const FOV: f32 = 24.0;
         let (sin_a, cos_a) = libm::sincosf(azimuth.to_radians());
         let (sin_e, cos_e) = libm::sincosf(elevation.clamp(-89.0, 89.0).to_radians());
         let (up, side, front) = match up {
-            UpAxis::Y => (Vec3::Y, Vec3::X, Vec3::Z),
-            UpAxis::Z => (Vec3::Z, Vec3::X, -Vec3::Y),
+            UpAxis::Y => (DVec3::Y, DVec3::X, DVec3::Z),
+            UpAxis::Z => (DVec3::Z, DVec3::X, DVec3::NEG_Y),
         };
-        let back = (side * sin_a + front * cos_a) * cos_e + up * sin_e;
-        let fov = 24.0;
-        let (low, high) = corners(bounds);
-        let centre = low + (high - low) * 0.5;
-        let distance = fitting_distance(high - centre, back, up, fov, aspect);
+        let level = side * f64::from(sin_a) + front * f64::from(cos_a);
+        let back = level * f64::from(cos_e) + up * f64::from(sin_e);
+        let right = up.cross(back).normalize_or(side);
+        let top = back.cross(right);
+        let tan_y = f64::from(libm::tanf(FOV.to_radians() * 0.5) * FILL);
+        let tan = [tan_y * f64::from(aspect), tan_y];
+        // The picture's four edges are planes through the eye: how far out does each
+        // have to be for all points to be inside?
+        let mut out = [[f64::NEG_INFINITY; 2]; 2];
+        let mut nearest = f64::NEG_INFINITY;
+        for p in points {
+            let p = DVec3::from(p.map(f64::from));
+            let depth = p.dot(back);
+            nearest = nearest.max(depth);
+            for (k, axis) in [right, top].into_iter().enumerate() {
+                let across = p.dot(axis);
+                out[k][0] = out[k][0].max(depth * tan[k] + across);
+                out[k][1] = out[k][1].max(depth * tan[k] - across);
+            }
+        }
+        let distance = |k: usize| (out[k][0] + out[k][1]) / (2.0 * tan[k]);
+        let middle = |k: usize| (out[k][0] - out[k][1]) * 0.5;
+        let eye_depth = distance(0).max(distance(1));
+        let on_axis = right * middle(0) + top * middle(1);
+        // What the camera looks at only matters by its direction.
+        let to = nearest.min(eye_depth - 1e-3 * eye_depth.abs().max(1.0));
         Self {
-            from: (centre + back * distance).to_array(),
-            to: centre.to_array(),
-            up: up.to_array(),
-            fov,
+            from: (on_axis + back * eye_depth).as_vec3().to_array(),
+            to: (on_axis + back * to).as_vec3().to_array(),
+            up: up.as_vec3().to_array(),
+            fov: FOV,
         }
     }
 
@@ -77,37 +108,23 @@ impl Camera {
     }
 }
 
-fn corners(bounds: &Bounds) -> (Vec3, Vec3) {
-    let (low, high) = (Vec3::from(bounds.min), Vec3::from(bounds.max));
-    if bounds.is_empty() || !(low.is_finite() && high.is_finite()) {
-        return (Vec3::splat(-0.5), Vec3::splat(0.5));
+/// The corners of `bounds`, or of a unit cube where they enclose nothing.
+fn solid(bounds: &Bounds) -> ([f32; 3], [f32; 3]) {
+    let finite = bounds.min.iter().chain(&bounds.max).all(|x| x.is_finite());
+    if bounds.is_empty() || !finite {
+        return ([-0.5; 3], [0.5; 3]);
     }
-    if low == high {
-        return (low - Vec3::splat(0.5), high + Vec3::splat(0.5));
+    if bounds.min == bounds.max {
+        return (bounds.min.map(|x| x - 0.5), bounds.max.map(|x| x + 0.5));
     }
-    (low, high)
-}
-
-/// Smallest distance at which the eight corners `±half` are all in the picture.
-fn fitting_distance(half: Vec3, back: Vec3, up: Vec3, fov: f32, aspect: f32) -> f32 {
-    let tan_y = libm::tanf(fov.to_radians() * 0.5) * FILL;
-    let tan_x = tan_y * aspect;
-    let right = up.cross(back).normalize();
-    let top = back.cross(right);
-    (0..8)
-        .map(|corner| {
-            let sign = |bit: u32| if corner >> bit & 1 == 0 { 1.0 } else { -1.0 };
-            let p = half * Vec3::new(sign(0), sign(1), sign(2));
-            let reach = (p.dot(right).abs() / tan_x).max(p.dot(top).abs() / tan_y);
-            p.dot(back) + reach
-        })
-        .fold(0.0, f32::max)
+    (bounds.min, bounds.max)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::stage::View;
+    use glam::Vec3;
     use proptest::prelude::*;
 
     proptest! {

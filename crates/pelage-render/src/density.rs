@@ -77,7 +77,8 @@ impl Density {
         let (a, b) = (cuts.position(i), cuts.position(i + 1));
         let length = a.distance(b);
         let steps = (length / (0.7 * self.cell)).ceil().clamp(1.0, 512.0);
-        let share = length / steps * std::f32::consts::FRAC_PI_4 / (self.cell * self.cell * self.cell);
+        let share =
+            length / steps * std::f32::consts::FRAC_PI_4 / (self.cell * self.cell * self.cell);
         for k in 0..steps as u32 {
             let t = (k as f32 + 0.5) / steps;
             let mix = |p: f32, q: f32| p + (q - p) * t;
@@ -150,7 +151,13 @@ impl Density {
     pub fn depth(&self, from: Vec3, direction: Vec3, enough: f32) -> f32 {
         let origin = (from - self.low) / self.cell;
         let size = self.dims.as_vec3();
-        let inverse = direction.map(|d| if d.abs() < 1e-9 { 1e9f32.copysign(d) } else { 1.0 / d });
+        let inverse = direction.map(|d| {
+            if d.abs() < 1e-9 {
+                1e9f32.copysign(d)
+            } else {
+                1.0 / d
+            }
+        });
         let (t0, t1) = (-origin * inverse, (size - origin) * inverse);
         let mut t = t0.min(t1).max_element().max(0.0);
         let end = t0.max(t1).min_element();
@@ -174,7 +181,8 @@ impl Density {
                 2
             };
             let leave = next[axis];
-            depth += self.extinction[self.index(voxel.as_uvec3())] * (leave - t).max(0.0) * self.cell;
+            depth +=
+                self.extinction[self.index(voxel.as_uvec3())] * (leave - t).max(0.0) * self.cell;
             t = leave.max(t);
             voxel[axis] += step[axis];
             next[axis] += per_voxel[axis];

@@ -50,8 +50,13 @@ pub(crate) fn scatter(model: &Marschner, g: &Geometry, shares: &Shares, n: f32) 
 
 /// Radiance sent to the eye under even light from all around, of unit radiance
 /// outside and behind `n` fibres.
-pub(crate) fn ambient(shares: &Shares, n: f32) -> Rgb {
-    shares.total * passed(shares, n)
+///
+/// Half or more of what a fibre in a coat sees is other fibres of its kind, so it
+/// looks less like a lone one (whose share is `total`) than like the coat itself,
+/// of `color`.
+pub(crate) fn ambient(shares: &Shares, color: Rgb, n: f32) -> Rgb {
+    const LONE: f32 = 0.25;
+    color.lerp(shares.total, LONE) * passed(shares, n)
 }
 
 #[cfg(test)]
@@ -70,7 +75,10 @@ mod tests {
             let mut before = f32::INFINITY;
             for k in 0..40 {
                 let shown = scatter(&model, &g, &shares, k as f32 * 0.25).x;
-                assert!(shown >= 0.0 && shown < before, "{color} behind {k}: {shown}");
+                assert!(
+                    shown >= 0.0 && shown < before,
+                    "{color} behind {k}: {shown}"
+                );
                 before = shown;
             }
         }

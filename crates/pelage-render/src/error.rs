@@ -62,11 +62,7 @@ pub enum RenderError {
 
 impl RenderError {
     /// A setting `name` that is `found` but must be `allowed`.
-    pub(crate) fn setting(
-        name: &'static str,
-        found: impl ToString,
-        allowed: &'static str,
-    ) -> Self {
+    pub(crate) fn setting(name: &'static str, found: impl ToString, allowed: &'static str) -> Self {
         Self::Setting {
             name,
             found: found.to_string(),

@@ -11,17 +11,17 @@ use rayon::prelude::*;
 use std::f32::consts::PI;
 
 /// Texels along a side of the map.
-const TEXELS: usize = 144;
+const TEXELS: usize = 224;
 /// Half a side of the map, in the unit scene.
-const REACH: f32 = 1.6;
+const REACH: f32 = 1.15;
 /// Directions towards each far light.
 const TO_BEAM: u32 = 16;
 /// Directions towards the sky.
 const TO_SKY: u32 = 32;
 /// Radii between which the pool of light on the floor fades, in the unit scene.
-const POOL: [f32; 2] = [0.25, 3.2];
+const POOL: [f32; 2] = [0.2, 4.5];
 /// Brightness outside the pool.
-const OUTSIDE: f32 = 0.55;
+const OUTSIDE: f32 = 0.72;
 
 /// A horizontal floor and the light on it, as a share of what an empty one gets.
 pub(crate) struct Floor {
@@ -144,8 +144,16 @@ fn blurred(texels: &[Rgb]) -> Vec<Rgb> {
     (0..texels.len())
         .map(|k| {
             let (x, y) = (k % TEXELS, k / TEXELS);
-            let rows = [(y.saturating_sub(1), 1.0), (y, 2.0), ((y + 1).min(last), 1.0)];
-            let columns = [(x.saturating_sub(1), 1.0), (x, 2.0), ((x + 1).min(last), 1.0)];
+            let rows = [
+                (y.saturating_sub(1), 1.0),
+                (y, 2.0),
+                ((y + 1).min(last), 1.0),
+            ];
+            let columns = [
+                (x.saturating_sub(1), 1.0),
+                (x, 2.0),
+                ((x + 1).min(last), 1.0),
+            ];
             let mut sum = Rgb::ZERO;
             for (row, wy) in rows {
                 for (column, wx) in columns {

@@ -87,7 +87,11 @@ mod tests {
             let hit = ray.origin + ray.direction * t;
             let axis = Vec3::new(1.0, 0.0, slant).normalize();
             let off = hit - axis * hit.dot(axis);
-            assert!((off.length() - 0.3).abs() < 1e-4, "slant {slant}: {}", off.length());
+            assert!(
+                (off.length() - 0.3).abs() < 1e-4,
+                "slant {slant}: {}",
+                off.length()
+            );
             let on_axis = Vec3::new(-2.0 + 4.0 * s, 0.0, (-2.0 + 4.0 * s) * slant);
             assert!((hit - on_axis).dot(axis).abs() < 1e-3);
         }

@@ -4,8 +4,8 @@
 //! leaves under a bounding volume hierarchy; every ray gathers the nearest
 //! leaves it crosses, sorted by depth, and blends them. Hair is lit by a
 //! Marschner model with dual scattering (or by Kajiya and Kay's); how many fibres
-//! stand between a fibre and a light comes from rays for the crisp near shadow
-//! and from a density grid for the rest.
+//! stand between a fibre and a light comes from deep shadow maps, softened with a
+//! density grid, which also says how much sky is seen.
 //!
 //! The same scene and settings give the same bytes on every machine and for any
 //! number of threads: transcendental functions come from `libm`, nothing is
@@ -32,6 +32,7 @@ mod azimuth;
 mod backdrop;
 mod camera;
 mod color;
+mod deep_map;
 mod density;
 mod dual_scattering;
 mod error;

@@ -130,7 +130,11 @@ fn fill(out: &mut [f32], centre: Vec3, occluders: Occluders, lighting: &Lighting
     let s = &mut out[lighting.beams.len() * 2..];
     let mean = sky / TO_SKY as f32;
     // The one number of fibres that dims the whole sky as its parts do.
-    let fibers = if behind > 0.0 { -2.0 * libm::logf(behind / clear) } else { 0.0 };
+    let fibers = if behind > 0.0 {
+        -2.0 * libm::logf(behind / clear)
+    } else {
+        0.0
+    };
     s[..3].copy_from_slice(&mean.to_array());
     s[3] = fibers * luminance(mean);
 }

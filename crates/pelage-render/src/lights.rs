@@ -48,7 +48,7 @@ impl Default for LightRig {
                 Light {
                     azimuth: -48.0,
                     elevation: 46.0,
-                    color: [3.3, 3.1, 2.8],
+                    color: [4.4, 4.15, 3.75],
                     softness: 5.0,
                 },
                 Light {
@@ -60,14 +60,14 @@ impl Default for LightRig {
                 Light {
                     azimuth: 152.0,
                     elevation: 38.0,
-                    color: [3.6, 3.5, 3.3],
+                    color: [5.4, 5.2, 4.9],
                     softness: 8.0,
                 },
             ],
             sky: Sky {
-                zenith: [0.62, 0.68, 0.78],
-                horizon: [0.42, 0.43, 0.45],
-                ground: [0.24, 0.22, 0.20],
+                zenith: [0.56, 0.60, 0.66],
+                horizon: [0.36, 0.365, 0.375],
+                ground: [0.22, 0.205, 0.19],
             },
         }
     }
@@ -124,7 +124,9 @@ impl Lighting {
     pub fn new(rig: &LightRig, forward: Vec3, up: Vec3) -> Self {
         // A camera that looks straight down still needs a left and a right.
         let level = forward - up * forward.dot(up);
-        let back = -level.try_normalize().unwrap_or(crate::sampling::frame(up).0);
+        let back = -level
+            .try_normalize()
+            .unwrap_or(crate::sampling::frame(up).0);
         let right = up.cross(back);
         let beams = rig.lights.iter().map(|light| {
             let (sin_a, cos_a) = libm::sincosf(light.azimuth.to_radians());
@@ -147,7 +149,11 @@ impl Lighting {
     /// Radiance of the sky from the unit direction `d`.
     pub fn sky(&self, d: Vec3) -> Rgb {
         let height = d.dot(self.up);
-        let end = if height > 0.0 { self.zenith } else { self.ground };
+        let end = if height > 0.0 {
+            self.zenith
+        } else {
+            self.ground
+        };
         self.horizon.lerp(end, height.abs().min(1.0))
     }
 }

@@ -15,6 +15,9 @@ use glam::Vec3;
 
 /// Index of refraction of keratin.
 const REFRACTION: f32 = 1.55;
+/// Length of a path through a section of unit radius. The mean is 1.8; more is
+/// taken since dual scattering counts too few of the bounces that saturate a coat.
+const PATH: f32 = 3.0;
 /// Entries of the tables.
 const ENTRIES: usize = 64;
 
@@ -39,7 +42,11 @@ impl Geometry {
         Self {
             i,
             o,
-            cos_phi: if scale > 1e-6 { (across / scale).clamp(-1.0, 1.0) } else { 0.0 },
+            cos_phi: if scale > 1e-6 {
+                (across / scale).clamp(-1.0, 1.0)
+            } else {
+                0.0
+            },
             cos_half: (0.5 * (1.0 + between)).clamp(0.0, 1.0).sqrt(),
         }
     }
@@ -91,7 +98,9 @@ impl Marschner {
         // Karis' concentrations at the default roughness, narrower below it.
         let sharper = 0.35 / fiber.azimuthal_roughness;
         let sharper = sharper * sharper;
-        let fresnel: Vec<f32> = (0..ENTRIES).map(|k| fresnel_over_section(entry(k))).collect();
+        let fresnel: Vec<f32> = (0..ENTRIES)
+            .map(|k| fresnel_over_section(entry(k)))
+            .collect();
         let mean_fresnel = fresnel[(ENTRIES - 1) * 9 / 10];
         let around = fiber.azimuthal_roughness;
         let shares = |k| inner_shares(entry(k), around, mean_fresnel);
@@ -211,8 +220,7 @@ fn inner_shares(color: f32, roughness: f32, surface: f32) -> [f32; 3] {
         + 5.574 * power(b, 4)
         + 0.245 * power(b, 5);
     let root = libm::logf(color.clamp(0.002, 0.999)) / fit;
-    // Mean length of a path through a section of unit radius, slanted a little.
-    let passed = libm::expf(-root * root * 1.8);
+    let passed = libm::expf(-root * root * PATH);
     let (into, kept) = ((1.0 - surface) * (1.0 - surface), surface * passed);
     let tt = into * passed;
     let trt = tt * kept;

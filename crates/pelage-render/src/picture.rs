@@ -52,7 +52,11 @@ impl Picture {
     /// Fails where the arrays do not match the size.
     pub fn to_png16_bytes(&self) -> Result<Vec<u8>, RenderError> {
         // The encoder takes 16-bit numbers in the machine's own order.
-        let bytes: Vec<u8> = self.to_rgb16().into_iter().flat_map(u16::to_ne_bytes).collect();
+        let bytes: Vec<u8> = self
+            .to_rgb16()
+            .into_iter()
+            .flat_map(u16::to_ne_bytes)
+            .collect();
         self.encode(&bytes, ExtendedColorType::Rgb16)
     }
 

@@ -11,7 +11,7 @@ use crate::light_field::{LightField, Occluders};
 use crate::lights::Lighting;
 use crate::picture::develop;
 use crate::sampling::{hash2, point_bits};
-use crate::shade::HairShader;
+use crate::shade::{HairShader, fibers_before};
 use crate::skin::Skin;
 use crate::stage::{Frame, View};
 use crate::tessellate::Cuts;
@@ -82,9 +82,11 @@ fn picture(
     progress(0.1);
     let field = LightField::new(occluders, &lighting);
     progress(0.16);
+    let counts = fibers_before(&cuts, &lighting);
+
     let shaded = HairShader {
         cuts: &cuts,
-        curves: &curves,
+        counts,
         surface: &surface,
         field: &field,
         lighting: &lighting,
@@ -129,7 +131,9 @@ fn floor_under(
     let hair = (0..cuts.places.len()).map(|i| cuts.position(i));
     let surface = skin.corners.iter().flatten().copied();
     let heights = hair.chain(surface).map(|p| p.dot(lighting.up));
-    let lowest = heights.filter(|h| h.is_finite()).fold(f32::INFINITY, f32::min);
+    let lowest = heights
+        .filter(|h| h.is_finite())
+        .fold(f32::INFINITY, f32::min);
     let height = if lowest.is_finite() { lowest } else { -0.5 };
     Some(Floor::new(height, occluders, lighting))
 }
@@ -172,7 +176,12 @@ impl Tracer<'_> {
             };
             let band: Vec<Vec<[f32; 3]>> = (start..end)
                 .into_par_iter()
-                .map(|y| self.develop_row(&filter, [row(y.checked_sub(1)), row(Some(y)), row(Some(y + 1))]))
+                .map(|y| {
+                    self.develop_row(
+                        &filter,
+                        [row(y.checked_sub(1)), row(Some(y)), row(Some(y + 1))],
+                    )
+                })
                 .collect();
             band.into_iter().for_each(|row| pixels.extend(row));
             progress(end as f32 / height as f32);
@@ -184,12 +193,14 @@ impl Tracer<'_> {
         // Runs of a few pixels share what they touch in the trees.
         let run = 8 * self.settings.samples as usize;
         rows.par_iter_mut().enumerate().for_each(|(k, row)| {
-            row.par_chunks_mut(run).enumerate().for_each(|(chunk, out)| {
-                for (i, sample) in out.iter_mut().enumerate() {
-                    let index = chunk * run + i;
-                    *sample = self.sample(index, first + k);
-                }
-            });
+            row.par_chunks_mut(run)
+                .enumerate()
+                .for_each(|(chunk, out)| {
+                    for (i, sample) in out.iter_mut().enumerate() {
+                        let index = chunk * run + i;
+                        *sample = self.sample(index, first + k);
+                    }
+                });
         });
     }
 
@@ -222,7 +233,11 @@ impl Tracer<'_> {
 
     /// Light from `direction` at the eye.
     fn radiance(&self, direction: Vec3, seed: u32) -> Rgb {
-        let behind = || self.settings.backdrop.radiance(self.floor, self.view.eye, direction);
+        let behind = || {
+            self.settings
+                .backdrop
+                .radiance(self.floor, self.view.eye, direction)
+        };
         let Some(start) = enter(self.view.eye, direction) else {
             return behind();
         };
@@ -237,7 +252,8 @@ impl Tracer<'_> {
         let back = match skin {
             Some(hit) => {
                 let (lighting, occluders) = (self.lighting, self.occluders);
-                self.skin.radiance(&hit, direction, occluders, lighting, seed)
+                self.skin
+                    .radiance(&hit, direction, occluders, lighting, seed)
             }
             None => behind(),
         };

@@ -37,14 +37,16 @@ impl<'a> Scene<'a> {
     /// of it by a little.
     pub fn bounds(&self) -> Bounds {
         let mut bounds = Bounds::default();
+        self.finite_points().for_each(|p| bounds.add(p, 0.0));
+        bounds
+    }
+
+    /// All finite vertices.
+    pub(crate) fn finite_points(&self) -> impl Iterator<Item = [f32; 3]> {
         let strands = self.strands.iter().flat_map(|s| s.points.iter());
         let surface = self.surface.iter().flat_map(|m| m.positions().iter());
-        for p in strands.copied().chain(surface.map(|p| p.to_array())) {
-            if p.iter().all(|x| x.is_finite()) {
-                bounds.add(p, 0.0);
-            }
-        }
-        bounds
+        let all = strands.copied().chain(surface.map(|p| p.to_array()));
+        all.filter(|p| p.iter().all(|x| x.is_finite()))
     }
 
     /// Refuses arrays that do not fit together. Values may be anything.

@@ -100,7 +100,7 @@ impl Default for Settings {
             exposure: 0.0,
             film_tone: true,
             thinnest: 0.7,
-            grid: 160,
+            grid: 128,
             hair_color: [0.30, 0.16, 0.07],
             seed: 0,
         }

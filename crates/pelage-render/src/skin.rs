@@ -18,6 +18,11 @@ const TO_SKY: u32 = 24;
 /// through and around.
 const SHADOW: f32 = 0.7;
 
+/// Exponent of the highlight of bare skin, a nose or an eye (Blinn and Phong's).
+const NARROW: f32 = 90.0;
+/// Its height: a dielectric's 4 % over the solid angle of the highlight.
+const GLINT: f32 = 0.04 * (NARROW + 2.0) / (8.0 * PI);
+
 /// The surface with the sky's light on it.
 pub(crate) struct Skin<'a> {
     mesh: Option<&'a Mesh>,
@@ -90,24 +95,31 @@ impl<'a> Skin<'a> {
         let p = corners[0] * u + corners[1] * v + corners[2] * w;
         let normal = self.normal(t, 0) * u + self.normal(t, 1) * v + self.normal(t, 2) * w;
         let normal = normal.try_normalize().unwrap_or(-direction);
-        let normal = if normal.dot(direction) > 0.0 { -normal } else { normal };
+        let normal = if normal.dot(direction) > 0.0 {
+            -normal
+        } else {
+            normal
+        };
         let sky = self.mesh.map_or(Rgb::ZERO, |mesh| {
             let sky = mesh.triangles()[t].map(|v| self.sky[v as usize]);
             sky[0] * u + sky[1] * v + sky[2] * w
         });
         // Away from the face that was hit, so that it does not shade itself.
         let p = p - direction * 2e-5;
-        let mut sum = sky;
+        let (mut sum, mut shine) = (sky, Rgb::ZERO);
         for (k, beam) in lighting.beams.iter().enumerate() {
             let to = in_cone(beam.to_light, beam.cos_angle, point(k as u32, seed));
             let facing = normal.dot(to);
             if facing > 0.0
                 && let Some(depth) = occluders.depth(p, to)
             {
-                sum += beam.irradiance * (facing / PI * libm::expf(-SHADOW * depth));
+                let light = beam.irradiance * (facing * libm::expf(-SHADOW * depth));
+                sum += light / PI;
+                let half = (to - direction).try_normalize().unwrap_or(normal);
+                shine += light * (GLINT * libm::powf(normal.dot(half).max(0.0), NARROW));
             }
         }
-        sum * self.color
+        sum * self.color + shine
     }
 }
 

@@ -14,10 +14,10 @@ use pelage_strands::StrandBuffer;
 use rayon::prelude::*;
 
 /// Largest turn of the tangent over a leaf, in radians: half of it enters the half
-/// angle of the highlight, whose own width is about 0.2.
-const TURN: f32 = 0.22;
+/// angle of the highlight, whose own width is about 0.27.
+const TURN: f32 = 0.4;
 /// Largest distance between leaf and curve, in pixels.
-const STRAY: f32 = 0.2;
+const STRAY: f32 = 0.35;
 /// Most leaves a piece, against memory running out on hairs before the lens.
 const MOST_LEAVES: f32 = 24.0;
 /// Strands cut by one task.
@@ -55,13 +55,14 @@ impl Cuts {
             ..Self::default()
         };
         for strands in &scene.strands {
-            let chunks = strands.len().div_ceil(CHUNK);
-            let parts: Vec<Cuts> = (0..chunks)
-                .into_par_iter()
+            let order = order(strands, frame);
+            let parts: Vec<Cuts> = order
+                .par_chunks(CHUNK)
                 .map(|chunk| {
                     let mut part = Cuts::default();
-                    let end = ((chunk + 1) * CHUNK).min(strands.len());
-                    (chunk * CHUNK..end).for_each(|s| cutter.cut(strands, s, &mut part));
+                    chunk
+                        .iter()
+                        .for_each(|&s| cutter.cut(strands, s as usize, &mut part));
                     part
                 })
                 .collect();
@@ -82,7 +83,8 @@ impl Cuts {
         }
         self.places.append(&mut part.places);
         self.looks.append(&mut part.looks);
-        self.starts.extend(part.starts.iter().map(|s| base as u32 + s));
+        self.starts
+            .extend(part.starts.iter().map(|s| base as u32 + s));
         self.skipped += part.skipped;
         Ok(())
     }
@@ -113,6 +115,31 @@ impl Cuts {
         let after = self.position((i + 1).min(end - 1));
         (after - before).try_normalize().unwrap_or(Vec3::Z)
     }
+}
+
+/// The strands along a space-filling curve through their roots: what is near in
+/// space is then near in memory, which every later stage gains from.
+fn order(strands: &StrandBuffer, frame: &Frame) -> Vec<u32> {
+    let mut keyed: Vec<(u32, u32)> = (0..strands.len())
+        .into_par_iter()
+        .map(|s| {
+            let root = strands.points.get(strands.offsets[s] as usize);
+            let key = root.map_or(0, |&p| morton(frame.place(p)));
+            (key, s as u32)
+        })
+        .collect();
+    keyed.par_sort_unstable();
+    keyed.into_iter().map(|(_, s)| s).collect()
+}
+
+/// Ten bits of each coordinate of a point of the unit scene, interleaved.
+fn morton(p: Vec3) -> u32 {
+    let spread = |x: f32| {
+        // NaN becomes 0.
+        let x = ((x + 0.5) * 1024.0).clamp(0.0, 1023.0) as u32;
+        (0..10).fold(0, |bits, k| bits | (x >> k & 1) << (3 * k))
+    };
+    spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2
 }
 
 struct Cutter<'a> {
