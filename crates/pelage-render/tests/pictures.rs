@@ -87,7 +87,7 @@ fn small(width: u32, height: u32) -> Settings {
 
 fn picture(scene: &Scene, settings: &Settings) -> Picture {
     let camera = Camera::framing(&scene.bounds(), UpAxis::Y, settings.aspect());
-    render(scene, &camera, settings, |_| ()).unwrap()
+    render(scene, &camera, settings, |_| ()).expect("a sound scene")
 }
 
 #[test]
@@ -343,10 +343,10 @@ fn compare(name: &str, shown: &Picture) {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
     let path = folder.join(format!("{name}.png"));
     if std::env::var_os("PELAGE_BLESS").is_some() {
-        std::fs::create_dir_all(&folder).unwrap();
-        shown.write_png(&path).unwrap();
+        std::fs::create_dir_all(&folder).expect("a folder");
+        shown.write_png(&path).expect("a file");
     }
-    let golden = image::open(&path).unwrap().into_rgb8();
+    let golden = image::open(&path).expect("the stored picture").into_rgb8();
     let off = mean_difference(golden.as_raw(), &shown.to_rgb8());
     assert!(
         off <= TOLERANCE,
