@@ -10,8 +10,10 @@ use glam::Vec3;
 use rayon::prelude::*;
 use std::f32::consts::PI;
 
-/// Texels along a side of the map.
-const TEXELS: usize = 224;
+/// Most texels along a side of the map.
+const MOST_TEXELS: u32 = 224;
+/// Fewest texels along a side of the map.
+const FEWEST_TEXELS: u32 = 32;
 /// Half a side of the map, in the unit scene.
 const REACH: f32 = 1.15;
 /// Directions towards each far light.
@@ -30,32 +32,37 @@ pub(crate) struct Floor {
     height: f32,
     x: Vec3,
     y: Vec3,
+    /// Texels along a side.
+    side: usize,
     texels: Vec<Rgb>,
 }
 
 impl Floor {
-    /// The floor at `height` along `lighting.up`, under what `occluders` hold.
-    pub fn new(height: f32, occluders: Occluders, lighting: &Lighting) -> Self {
+    /// The floor at `height` along `lighting.up`, under what `occluders` hold,
+    /// for a picture `rows` pixels high.
+    pub fn new(height: f32, rows: u32, occluders: Occluders, lighting: &Lighting) -> Self {
         let (x, y) = frame(lighting.up);
         let mut floor = Self {
             up: lighting.up,
             height,
             x,
             y,
+            // About three pixels each where the scene fills the picture.
+            side: (rows * 5 / 16).clamp(FEWEST_TEXELS, MOST_TEXELS) as usize,
             texels: Vec::new(),
         };
         let empty = floor.empty_light(lighting);
-        let texels: Vec<Rgb> = (0..TEXELS * TEXELS)
+        let texels: Vec<Rgb> = (0..floor.side * floor.side)
             .into_par_iter()
             .map(|k| floor.gather(floor.texel(k), occluders, lighting) / empty)
             .collect();
-        floor.texels = blurred(&texels);
+        floor.texels = blurred(&texels, floor.side);
         floor
     }
 
     fn texel(&self, k: usize) -> Vec3 {
-        let along = |i: usize| ((i as f32 + 0.5) / TEXELS as f32 * 2.0 - 1.0) * REACH;
-        let (a, b) = (along(k % TEXELS), along(k / TEXELS));
+        let along = |i: usize| ((i as f32 + 0.5) / self.side as f32 * 2.0 - 1.0) * REACH;
+        let (a, b) = (along(k % self.side), along(k / self.side));
         // A little above, or the lowest hairs would lie under it.
         self.x * a + self.y * b + self.up * (self.height + 1e-4)
     }
@@ -114,12 +121,12 @@ impl Floor {
 
     /// The map at `a`, `b` by quadratic B-splines.
     fn shadow(&self, a: f32, b: f32) -> Rgb {
-        let at = |c: f32| (c / REACH * 0.5 + 0.5) * TEXELS as f32 - 0.5;
-        let (x, y) = (spline(at(a)), spline(at(b)));
+        let at = |c: f32| (c / REACH * 0.5 + 0.5) * self.side as f32 - 0.5;
+        let (x, y) = (spline(at(a), self.side), spline(at(b), self.side));
         let mut sum = Rgb::ZERO;
         for (row, wy) in y {
             for (column, wx) in x {
-                sum += self.texels[row * TEXELS + column] * (wx * wy);
+                sum += self.texels[row * self.side + column] * (wx * wy);
             }
         }
         sum
@@ -127,23 +134,23 @@ impl Floor {
 }
 
 /// The three texels around `x` and their weights.
-fn spline(x: f32) -> [(usize, f32); 3] {
-    let centre = (x + 0.5).floor().clamp(0.0, (TEXELS - 1) as f32);
+fn spline(x: f32, side: usize) -> [(usize, f32); 3] {
+    let centre = (x + 0.5).floor().clamp(0.0, (side - 1) as f32);
     let f = (x - centre).clamp(-0.5, 0.5);
     let i = centre as usize;
     [
         (i.saturating_sub(1), 0.5 * (0.5 - f) * (0.5 - f)),
         (i, 0.75 - f * f),
-        ((i + 1).min(TEXELS - 1), 0.5 * (0.5 + f) * (0.5 + f)),
+        ((i + 1).min(side - 1), 0.5 * (0.5 + f) * (0.5 + f)),
     ]
 }
 
 /// The map with every texel averaged with its eight neighbours.
-fn blurred(texels: &[Rgb]) -> Vec<Rgb> {
-    let last = TEXELS - 1;
+fn blurred(texels: &[Rgb], side: usize) -> Vec<Rgb> {
+    let last = side - 1;
     (0..texels.len())
         .map(|k| {
-            let (x, y) = (k % TEXELS, k / TEXELS);
+            let (x, y) = (k % side, k / side);
             let rows = [
                 (y.saturating_sub(1), 1.0),
                 (y, 2.0),
@@ -157,7 +164,7 @@ fn blurred(texels: &[Rgb]) -> Vec<Rgb> {
             let mut sum = Rgb::ZERO;
             for (row, wy) in rows {
                 for (column, wx) in columns {
-                    sum += texels[row * TEXELS + column] * (wx * wy);
+                    sum += texels[row * side + column] * (wx * wy);
                 }
             }
             sum / 16.0

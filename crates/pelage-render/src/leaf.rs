@@ -38,6 +38,10 @@ impl Ray {
     }
 }
 
+/// How far tubes reach into each other, in half widths: enough for the largest turn
+/// that strands are cut by where they are wide.
+const JOINT: f32 = 0.1;
+
 /// Distance along the ray and place along the leaf (0 at `a`, 1 at `b`) where it is
 /// crossed. `a` and `b` hold a position and half a width.
 #[inline]
@@ -48,7 +52,7 @@ pub(crate) fn cross(ray: &Ray, a: &[f32; 4], b: &[f32; 4], round: bool) -> Optio
     let s = -(p.x * edge.x + p.y * edge.y) / across;
     // Also refuses the NaN of a leaf that lies along the ray.
     if round {
-        if !(s >= -8.0 && s <= 9.0) {
+        if !(-8.0..=9.0).contains(&s) {
             return None;
         }
     } else if !(0.0..1.0).contains(&s) {
@@ -67,10 +71,12 @@ pub(crate) fn cross(ray: &Ray, a: &[f32; 4], b: &[f32; 4], round: bool) -> Optio
     let (sine, cosine) = (across.sqrt() / length, edge.z / length);
     let back = inside.sqrt() / sine;
     let s_entry = s - back * cosine / length;
-    if !(0.0..1.0).contains(&s_entry) {
+    // Tubes reach into each other a little, or a joint that bends would gape.
+    let slack = JOINT * half / length;
+    if !(-slack..1.0 + slack).contains(&s_entry) {
         return None;
     }
-    Some((p.z + edge.z * s - back, s_entry))
+    Some((p.z + edge.z * s - back, s_entry.clamp(0.0, 1.0)))
 }
 
 #[cfg(test)]

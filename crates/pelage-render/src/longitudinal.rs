@@ -64,7 +64,7 @@ pub(crate) fn scaled_bessel(x: f32) -> f32 {
         polynomial(&terms, t * t) * libm::expf(-x)
     } else {
         let terms = [
-            0.398_942_28,
+            0.398_942_3,
             0.013_285_92,
             0.002_253_19,
             -0.001_575_65,

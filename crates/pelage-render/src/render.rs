@@ -83,7 +83,6 @@ fn picture(
     let field = LightField::new(occluders, &lighting);
     progress(0.16);
     let counts = fibers_before(&cuts, &lighting);
-
     let shaded = HairShader {
         cuts: &cuts,
         counts,
@@ -135,7 +134,7 @@ fn floor_under(
         .filter(|h| h.is_finite())
         .fold(f32::INFINITY, f32::min);
     let height = if lowest.is_finite() { lowest } else { -0.5 };
-    Some(Floor::new(height, occluders, lighting))
+    Some(Floor::new(height, settings.height, occluders, lighting))
 }
 
 /// All that rays from the eye meet.

@@ -18,6 +18,8 @@ use rayon::prelude::*;
 const TURN: f32 = 0.4;
 /// Largest distance between leaf and curve, in pixels.
 const STRAY: f32 = 0.35;
+/// Largest notch where two leaves of a wide hair meet at an angle, in pixels.
+const NOTCH: f32 = 0.4;
 /// Most leaves a piece, against memory running out on hairs before the lens.
 const MOST_LEAVES: f32 = 24.0;
 /// Strands cut by one task.
@@ -175,7 +177,8 @@ impl Cutter<'_> {
         for i in 0..placed.len() - 1 {
             let next = self.vertex(strands, range.start + i + 1);
             let window = catmull_rom::window(&placed, i);
-            let leaves = self.leaf_count(catmull_rom::to_bezier(window));
+            let width = vertex.width.max(next.width);
+            let leaves = self.leaf_count(catmull_rom::to_bezier(window), width);
             for k in 1..=leaves {
                 let t = k as f32 / leaves as f32;
                 let between = Vertex {
@@ -202,8 +205,8 @@ impl Cutter<'_> {
         }
     }
 
-    /// How many leaves stand for the cubic of `bezier`.
-    fn leaf_count(&self, bezier: [Vec3; 4]) -> u32 {
+    /// How many leaves stand for the cubic of `bezier` of a hair of `width`.
+    fn leaf_count(&self, bezier: [Vec3; 4], width: f32) -> u32 {
         let [a, b, c, d] = bezier;
         let legs = [b - a, c - b, d - c].map(|leg| leg.try_normalize());
         let turn = |p: Option<Vec3>, q: Option<Vec3>| match (p, q) {
@@ -217,7 +220,8 @@ impl Cutter<'_> {
         let by_shape = (0.75 * bend / (STRAY * pixel)).sqrt();
         // No leaf needs to be shorter than a pixel.
         let pixels = (d - a).length().max(bend) / pixel;
-        let count = (turns / TURN).max(by_shape).min(pixels).ceil();
+        let by_turn = turns * (1.0 / TURN).max(0.5 * width / (pixel * NOTCH));
+        let count = by_turn.max(by_shape).min(pixels).ceil();
         count.clamp(1.0, MOST_LEAVES) as u32
     }
 
