@@ -135,8 +135,9 @@ impl Plan {
                     length += weight * guides.lengths[near.guide as usize];
                 }
             }
-            // Not `> 0.0`: a NaN must not pass either.
-            if !(length * factor > 0.0) {
+            // A NaN has no length either.
+            let has_length = length * factor > 0.0;
+            if !has_length {
                 capture.shares.truncate(first);
                 capture.dropped.without_length += 1;
                 continue;

@@ -2,7 +2,7 @@
 
 use crate::RenderError;
 use pelage_strands::{Bounds, StrandBuffer};
-use pelage_surface::Mesh;
+use pelage_surface::{ImageMap, Mesh};
 
 /// Strands and the surface they grow on, borrowed.
 #[derive(Clone, Debug)]
@@ -13,8 +13,10 @@ pub struct Scene<'a> {
     pub strands: Vec<&'a StrandBuffer>,
     /// The surface under the hair.
     pub surface: Option<&'a Mesh>,
-    /// Linear RGB of the surface, 0..=1.
+    /// Linear RGB of the surface, 0..=1, where there is no `surface_map`.
     pub surface_color: [f32; 3],
+    /// Linear RGB over the surface, repeating; needs a surface with UVs.
+    pub surface_map: Option<&'a ImageMap>,
 }
 
 impl<'a> Scene<'a> {
@@ -24,12 +26,19 @@ impl<'a> Scene<'a> {
             strands: vec![strands],
             surface: None,
             surface_color: [0.22, 0.15, 0.12],
+            surface_map: None,
         }
     }
 
     /// The same scene with a surface under the hair.
     pub fn on(mut self, surface: &'a Mesh) -> Self {
         self.surface = Some(surface);
+        self
+    }
+
+    /// The same scene with colours over the surface.
+    pub fn painted(mut self, map: &'a ImageMap) -> Self {
+        self.surface_map = Some(map);
         self
     }
 

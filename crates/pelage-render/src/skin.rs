@@ -8,7 +8,7 @@ use crate::lights::Lighting;
 use crate::sampling::{in_cone, over_cosine, point};
 use crate::stage::Frame;
 use glam::Vec3;
-use pelage_surface::Mesh;
+use pelage_surface::{ImageMap, Mesh, SurfacePoint, Wrap};
 use rayon::prelude::*;
 use std::f32::consts::PI;
 
@@ -27,6 +27,7 @@ const GLINT: f32 = 0.04 * (NARROW + 2.0) / (8.0 * PI);
 pub(crate) struct Skin<'a> {
     mesh: Option<&'a Mesh>,
     color: Rgb,
+    map: Option<&'a ImageMap>,
     /// Triangles in the unit scene.
     pub corners: Vec<[Vec3; 3]>,
     /// Per vertex: mean of sky radiance over the hemisphere, weighted by cosine.
@@ -44,6 +45,7 @@ impl<'a> Skin<'a> {
         Self {
             mesh,
             color: scene.surface_color.into(),
+            map: scene.surface_map,
             corners,
             sky: Vec::new(),
         }
@@ -119,7 +121,23 @@ impl<'a> Skin<'a> {
                 shine += light * (GLINT * libm::powf(normal.dot(half).max(0.0), NARROW));
             }
         }
-        sum * self.color + shine
+        sum * self.color(hit) + shine
+    }
+
+    /// What the surface reflects at `hit`.
+    fn color(&self, hit: &SurfaceHit) -> Rgb {
+        let (Some(mesh), Some(map)) = (self.mesh.filter(|m| m.has_uvs()), self.map) else {
+            return self.color;
+        };
+        let [v, w] = hit.weights;
+        let place = SurfacePoint {
+            triangle: hit.triangle,
+            barycentric: [1.0 - v - w, v, w],
+        };
+        let uv = mesh.uv(&place);
+        map.sample_rgb(uv.x, uv.y, Wrap::Repeat)
+            .map(|c| c.clamp(0.0, 1.0))
+            .into()
     }
 }
 

@@ -7,10 +7,22 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("pelage-curves", &[]),
     ("pelage-strands", &["pelage-curves"]),
     ("pelage-surface", &["pelage-curves"]),
-    ("pelage-groom", &["pelage-curves", "pelage-strands", "pelage-surface"]),
-    ("pelage-io", &["pelage-curves", "pelage-strands", "pelage-surface"]),
-    ("pelage-render", &["pelage-curves", "pelage-strands", "pelage-surface"]),
-    ("pelage-examples", &["pelage-curves", "pelage-strands", "pelage-surface"]),
+    (
+        "pelage-groom",
+        &["pelage-curves", "pelage-strands", "pelage-surface"],
+    ),
+    (
+        "pelage-io",
+        &["pelage-curves", "pelage-strands", "pelage-surface"],
+    ),
+    (
+        "pelage-render",
+        &["pelage-curves", "pelage-strands", "pelage-surface"],
+    ),
+    (
+        "pelage-examples",
+        &["pelage-curves", "pelage-strands", "pelage-surface"],
+    ),
     (
         "pelage",
         &[
@@ -33,7 +45,10 @@ pub fn problems(metadata: &Metadata) -> Vec<String> {
     let mut problems = Vec::new();
     for package in metadata.members() {
         let Some((_, allowed)) = MAY_USE.iter().find(|(name, _)| *name == package.name) else {
-            problems.push(format!("{}: has no layer; give it one in layers.rs", package.name));
+            problems.push(format!(
+                "{}: has no layer; give it one in layers.rs",
+                package.name
+            ));
             continue;
         };
         for dependency in &package.dependencies {

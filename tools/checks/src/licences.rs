@@ -21,11 +21,17 @@ const ALLOWED: &[&str] = &[
 
 /// Every package whose licence is missing or not allowed.
 pub fn problems(metadata: &Metadata) -> Vec<String> {
-    let refused = metadata.packages.iter().filter(|p| !allowed(p.license.as_deref()));
+    let refused = metadata
+        .packages
+        .iter()
+        .filter(|p| !allowed(p.license.as_deref()));
     refused
         .map(|p| {
             let licence = p.license.as_deref().unwrap_or("none");
-            format!("{} {}: its licence is {licence}, which is not allowed", p.name, p.version)
+            format!(
+                "{} {}: its licence is {licence}, which is not allowed",
+                p.name, p.version
+            )
         })
         .collect()
 }
@@ -33,7 +39,9 @@ pub fn problems(metadata: &Metadata) -> Vec<String> {
 /// Whether an SPDX expression can be met: one of the alternatives, all of whose parts
 /// are allowed. `/` is the old way to write OR.
 fn allowed(licence: Option<&str>) -> bool {
-    let Some(expression) = licence else { return false };
+    let Some(expression) = licence else {
+        return false;
+    };
     let flat = expression.replace('/', " OR ").replace(['(', ')'], " ");
     // "A AND (B OR C)" read without its brackets is "A AND B OR C": ask for more, not
     // less, by treating a bracketed expression as one that needs every part.
@@ -41,7 +49,8 @@ fn allowed(licence: Option<&str>) -> bool {
         let mut parts = flat.split(" AND ").map(str::trim);
         return parts.all(|part| part.split(" OR ").any(|l| ALLOWED.contains(&l.trim())));
     }
-    flat.split(" OR ").any(|all| all.split(" AND ").all(|l| ALLOWED.contains(&l.trim())))
+    flat.split(" OR ")
+        .any(|all| all.split(" AND ").all(|l| ALLOWED.contains(&l.trim())))
 }
 
 #[cfg(test)]

@@ -14,7 +14,10 @@ fn main() -> Result<()> {
     let mut problems = layers::problems(&metadata);
     problems.extend(licences::problems(&metadata));
     if problems.is_empty() {
-        println!("layers and licences of {} packages are right", metadata.packages.len());
+        println!(
+            "layers and licences of {} packages are right",
+            metadata.packages.len()
+        );
         return Ok(());
     }
     problems.iter().for_each(|problem| eprintln!("{problem}"));

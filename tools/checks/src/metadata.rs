@@ -40,7 +40,9 @@ pub struct Dependency {
 impl Metadata {
     /// The packages of the workspace.
     pub fn members(&self) -> impl Iterator<Item = &Package> {
-        self.packages.iter().filter(|p| self.workspace_members.contains(&p.id))
+        self.packages
+            .iter()
+            .filter(|p| self.workspace_members.contains(&p.id))
     }
 }
 
@@ -52,7 +54,10 @@ pub fn read() -> Result<Metadata> {
         .output()
         .context("cannot run cargo metadata")?;
     if !output.status.success() {
-        bail!("cargo metadata failed: {}", String::from_utf8_lossy(&output.stderr));
+        bail!(
+            "cargo metadata failed: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
     }
     serde_json::from_slice(&output.stdout).context("cannot read what cargo metadata printed")
 }

@@ -24,7 +24,12 @@ pub struct Fixture {
 
 impl Default for Fixture {
     fn default() -> Self {
-        Self { count: 5000, rings: 24, flat: false, turned_uvs: false }
+        Self {
+            count: 5000,
+            rings: 24,
+            flat: false,
+            turned_uvs: false,
+        }
     }
 }
 
@@ -53,7 +58,11 @@ impl Fixture {
                     mesh.corner_vertices.push(at);
                     let u = (column + c) as f32 / columns as f32;
                     let v = 1.0 - (row + r) as f32 / rows as f32;
-                    mesh.corner_uvs.push(if self.turned_uvs { [v, 1.0 - u] } else { [u, v] });
+                    mesh.corner_uvs.push(if self.turned_uvs {
+                        [v, 1.0 - u]
+                    } else {
+                        [u, v]
+                    });
                 }
             }
         }
@@ -80,7 +89,11 @@ impl Fixture {
             ",
             self.count
         );
-        let text = if self.flat { text } else { format!("{maps}\n{text}") };
+        let text = if self.flat {
+            text
+        } else {
+            format!("{maps}\n{text}")
+        };
         Recipe::parse(&text, Path::new("groom.toml")).unwrap()
     }
 
@@ -94,7 +107,9 @@ impl Fixture {
             let map = ImageMap::new(size as u32, size as u32, channels as u32, texels, false);
             images.insert(PathBuf::from(name), Arc::new(map.unwrap()));
         };
-        add("density.png", 1, &|x, y, _| if (x / 8 + y / 8) % 2 == 0 { 1.0 } else { 0.2 });
+        add("density.png", 1, &|x, y, _| {
+            if (x / 8 + y / 8) % 2 == 0 { 1.0 } else { 0.2 }
+        });
         add("length.png", 1, &|x, _, _| 0.5 + x as f32 / 128.0);
         add("color.png", 3, &|x, y, k| [x, y, x + y][k] as f32 / 256.0);
         let groom = Groom {
@@ -111,7 +126,11 @@ impl Fixture {
 /// The strands of `hairs` by the threaded run.
 pub fn collect(plan: &Plan, hairs: Range<u64>, threads: usize) -> StrandBuffer {
     let mut sink = Collect::default();
-    let request = Request { hairs, threads, info: StreamInfo::default() };
+    let request = Request {
+        hairs,
+        threads,
+        info: StreamInfo::default(),
+    };
     generate(plan, &request, &mut |_| Ok(None), &mut sink, &mut |_| true).unwrap();
     sink.strands
 }
@@ -121,18 +140,20 @@ pub fn strands(plan: &Plan, hairs: &[u64], pose: Option<&Mesh>) -> StrandBuffer 
     let (mut capture, mut clock) = (Capture::default(), Clock::default());
     let mut out = StrandBuffer::new();
     plan.capture(hairs.iter().copied(), &mut capture, &mut clock);
-    plan.evaluate(&capture, pose, &mut Scratch::default(), &mut out, &mut clock);
+    plan.evaluate(
+        &capture,
+        pose,
+        &mut Scratch::default(),
+        &mut out,
+        &mut clock,
+    );
     out
 }
 
 /// A rotation and a shift.
 pub fn motion() -> (Mat3, Vec3) {
     let (s, c) = (libm::sinf(1.1), libm::cosf(1.1));
-    let about_y = Mat3::from_cols(
-        Vec3::new(c, 0.0, -s),
-        Vec3::Y,
-        Vec3::new(s, 0.0, c),
-    );
+    let about_y = Mat3::from_cols(Vec3::new(c, 0.0, -s), Vec3::Y, Vec3::new(s, 0.0, c));
     let about_x = Mat3::from_cols(Vec3::X, Vec3::new(0.0, c, s), Vec3::new(0.0, -s, c));
     (about_y * about_x, Vec3::new(0.5, -2.0, 1.5))
 }

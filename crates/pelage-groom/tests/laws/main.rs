@@ -17,7 +17,10 @@ fn law_1_any_split_thread_count_and_chunk_gives_the_same_bits() {
     let whole = collect(&plan, 0..5000, 1);
     assert_eq!(whole.len(), 5000);
     for threads in [2, 3, 7] {
-        assert!(collect(&plan, 0..5000, threads) == whole, "{threads} threads");
+        assert!(
+            collect(&plan, 0..5000, threads) == whole,
+            "{threads} threads"
+        );
     }
     for cuts in [&[0, 5000][..], &[0, 1, 5000], &[0, 1023, 1025, 4096, 5000]] {
         let mut joined = StrandBuffer::new();
@@ -48,8 +51,16 @@ fn law_1_the_same_bytes_on_every_machine() {
 
 #[test]
 fn law_2_more_hair_keeps_the_old_hair() {
-    let few = Fixture { count: 1000, ..Fixture::default() }.plan();
-    let many = Fixture { count: 2000, ..Fixture::default() }.plan();
+    let few = Fixture {
+        count: 1000,
+        ..Fixture::default()
+    }
+    .plan();
+    let many = Fixture {
+        count: 2000,
+        ..Fixture::default()
+    }
+    .plan();
     let few = collect(&few, 0..1000, 1);
     let first = collect(&many, 0..1000, 1);
     assert!(few == first);
@@ -67,7 +78,10 @@ fn law_3_hairs_of_the_voxels_are_exactly_the_whole_and_bit_for_bit_the_same() {
             let part = strands(&plan, &hairs, None);
             for (i, &hair) in hairs.iter().enumerate() {
                 let hair = hair as usize;
-                assert!(!std::mem::replace(&mut seen[hair], true), "hair {hair} twice");
+                assert!(
+                    !std::mem::replace(&mut seen[hair], true),
+                    "hair {hair} twice"
+                );
                 assert_eq!(part.strand_points(i), whole.strand_points(hair));
             }
         }
@@ -81,7 +95,10 @@ fn law_4_a_rigid_motion_moves_every_hair_rigidly() {
     let plan = fixture.plan();
     let rest = collect(&plan, 0..1000, 1);
     let (turn, shift) = fixture::motion();
-    let pose = plan.rest().posed(&moved(&fixture.mesh(), turn, shift), true).unwrap();
+    let pose = plan
+        .rest()
+        .posed(&moved(&fixture.mesh(), turn, shift), true)
+        .unwrap();
     let hairs: Vec<u64> = (0..1000).collect();
     let posed = strands(&plan, &hairs, Some(&pose));
     assert_eq!(rest.offsets, posed.offsets);
@@ -106,8 +123,15 @@ fn law_5_a_plan_that_was_made_gives_sound_strands() {
 fn law_6_bounds_are_a_sink_and_hold_the_curves() {
     let plan = plan();
     let mut bounds = BoundsSink::default();
-    let request = Request { hairs: 0..1000, threads: 2, info: StreamInfo::default() };
-    generate(&plan, &request, &mut |_| Ok(None), &mut bounds, &mut |_| true).unwrap();
+    let request = Request {
+        hairs: 0..1000,
+        threads: 2,
+        info: StreamInfo::default(),
+    };
+    generate(&plan, &request, &mut |_| Ok(None), &mut bounds, &mut |_| {
+        true
+    })
+    .unwrap();
     let all = bounds.all();
     let strands = collect(&plan, 0..1000, 1);
     for strand in 0..strands.len() {
@@ -141,7 +165,10 @@ fn law_7_a_strand_holds_its_real_vertices_only() {
 fn law_8_roots_inside_one_small_triangle_do_not_fall_on_lines() {
     // Document 004 in floats leaves about 4 bits inside one of a million triangles;
     // here the hairs of one triangle of a fine mesh all differ in both weights.
-    let fixture = Fixture { rings: 256, ..Fixture::default() };
+    let fixture = Fixture {
+        rings: 256,
+        ..Fixture::default()
+    };
     let plan = fixture.plan();
     let sampler = plan.sampler().unwrap();
     let place = sampler.place(1 << 63, 0.5);
@@ -154,23 +181,45 @@ fn law_8_roots_inside_one_small_triangle_do_not_fall_on_lines() {
     weights.sort_unstable();
     weights.dedup();
     assert!(drawn > 500, "{drawn}");
-    assert!(weights.len() * 10 > drawn * 9, "{} of {drawn} differ", weights.len());
+    assert!(
+        weights.len() * 10 > drawn * 9,
+        "{} of {drawn} differ",
+        weights.len()
+    );
 }
 
 #[test]
 fn the_way_the_texture_lies_on_the_surface_does_not_matter() {
-    let straight = collect(&Fixture { flat: true, ..Fixture::default() }.plan(), 0..500, 1);
-    let fixture = Fixture { flat: true, turned_uvs: true, ..Fixture::default() };
+    let straight = collect(
+        &Fixture {
+            flat: true,
+            ..Fixture::default()
+        }
+        .plan(),
+        0..500,
+        1,
+    );
+    let fixture = Fixture {
+        flat: true,
+        turned_uvs: true,
+        ..Fixture::default()
+    };
     let turned = collect(&fixture.plan(), 0..500, 1);
     for (p, q) in straight.points.iter().zip(&turned.points) {
-        assert!(Vec3::from(*p).distance(Vec3::from(*q)) < 1e-4, "{p:?} {q:?}");
+        assert!(
+            Vec3::from(*p).distance(Vec3::from(*q)) < 1e-4,
+            "{p:?} {q:?}"
+        );
     }
 }
 
 #[test]
 fn hairs_that_grow_side_by_side_look_alike_also_where_their_guides_change() {
-    let plan = Fixture { flat: true, ..Fixture::default() }.plan();
-    // Hairs sorted by place: neighbours in space are compared, a thousandth apart.
+    let plan = Fixture {
+        flat: true,
+        ..Fixture::default()
+    }
+    .plan();
     let strands = collect(&plan, 0..5000, 2);
     let tip = |i: usize| {
         let points = strands.strand_points(i);
@@ -179,12 +228,15 @@ fn hairs_that_grow_side_by_side_look_alike_also_where_their_guides_change() {
     let root = |i: usize| strands.strand_points(i)[0];
     let mut pairs = 0;
     for i in 0..strands.len() {
-        for j in i + 1..strands.len().min(i + 400) {
+        for j in i + 1..strands.len() {
             let apart = root(i).distance(root(j));
             if apart < 0.01 {
                 pairs += 1;
                 let jump = tip(i).distance(tip(j));
-                assert!(jump < 40.0 * apart, "hairs {i} and {j}: {jump} over {apart}");
+                assert!(
+                    jump < 40.0 * apart,
+                    "hairs {i} and {j}: {jump} over {apart}"
+                );
             }
         }
     }
@@ -197,14 +249,35 @@ fn a_failing_sink_ends_the_run_with_its_words() {
     impl Sink for Full {
         fn write(&mut self, strands: &StrandBuffer) -> Result<(), SinkError> {
             self.0 += strands.len() as u64;
-            if self.0 > 3000 { Err(SinkError::new("the disk", "it is full")) } else { Ok(()) }
+            if self.0 > 3000 {
+                Err(SinkError::new("the disk", "it is full"))
+            } else {
+                Ok(())
+            }
         }
     }
     for threads in [1, 4] {
-        let request = Request { hairs: 0..50_000, threads, info: StreamInfo::default() };
-        let plan = Fixture { count: 50_000, ..Fixture::default() }.plan();
-        let run = generate(&plan, &request, &mut |_| Ok(None), &mut Full(0), &mut |_| true);
-        assert_eq!(run.unwrap_err().to_string(), "cannot write the disk: it is full");
+        let request = Request {
+            hairs: 0..50_000,
+            threads,
+            info: StreamInfo::default(),
+        };
+        let plan = Fixture {
+            count: 50_000,
+            ..Fixture::default()
+        }
+        .plan();
+        let run = generate(
+            &plan,
+            &request,
+            &mut |_| Ok(None),
+            &mut Full(0),
+            &mut |_| true,
+        );
+        assert_eq!(
+            run.unwrap_err().to_string(),
+            "cannot write the disk: it is full"
+        );
     }
 }
 

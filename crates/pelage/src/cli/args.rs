@@ -107,7 +107,12 @@ pub struct GenerateArgs {
     #[arg(long, value_parser = open_range, value_name = "A..B")]
     pub range: Option<(Option<u64>, Option<u64>)>,
     /// The frame whose posed surface to use.
-    #[arg(long, value_name = "F", allow_negative_numbers = true, conflicts_with = "frames")]
+    #[arg(
+        long,
+        value_name = "F",
+        allow_negative_numbers = true,
+        conflicts_with = "frames"
+    )]
     pub frame: Option<i64>,
     /// All frames from A to B into one file (for .rib: one file each).
     #[arg(long, value_parser = frames, value_name = "A-B", allow_hyphen_values = true)]
@@ -124,6 +129,8 @@ pub struct GenerateArgs {
     /// Also render a picture of the (first frame's) hair on its surface.
     #[arg(long, value_hint = ValueHint::FilePath, value_name = "PNG")]
     pub picture: Option<PathBuf>,
+    #[command(flatten)]
+    pub view: ViewArgs,
     /// Write counts, times by stage and cost a hair as JSON; `-` prints them.
     #[arg(long, value_hint = ValueHint::FilePath, value_name = "JSON")]
     pub stats: Option<PathBuf>,
@@ -165,7 +172,7 @@ pub struct RenderArgs {
 }
 
 /// Camera and quality of a picture.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct ViewArgs {
     /// Size of the picture.
     #[arg(long, default_value = "1280x720", value_parser = size, value_name = "WxH")]
@@ -182,6 +189,9 @@ pub struct ViewArgs {
     /// Vertical field of view in degrees.
     #[arg(long, value_name = "DEGREES")]
     pub fov: Option<f32>,
+    /// Image with the colours of the surface, by its UVs.
+    #[arg(long, value_hint = ValueHint::FilePath, value_name = "IMAGE")]
+    pub skin: Option<PathBuf>,
 }
 
 /// `pelage inspect`.
@@ -202,11 +212,15 @@ impl GenerateArgs {
         let (first, end) = self.range.unwrap_or((None, None));
         let (first, end) = (first.unwrap_or(0), end.unwrap_or(count));
         if first > end {
-            return Err(format!("--range {first}..{end}: the first hair comes after the end"));
+            return Err(format!(
+                "--range {first}..{end}: the first hair comes after the end"
+            ));
         }
         if end > count {
-            return Err(format!("--range {first}..{end}: there are only {count} hairs; \
-                raise --count or hair.count"));
+            return Err(format!(
+                "--range {first}..{end}: there are only {count} hairs; \
+                raise --count or hair.count"
+            ));
         }
         Ok(first..end)
     }
@@ -214,7 +228,9 @@ impl GenerateArgs {
 
 /// A whole number in which `_` may group digits, as in TOML.
 fn whole(text: &str) -> Result<u64, String> {
-    text.replace('_', "").parse().map_err(|_| "expected a whole number".to_owned())
+    text.replace('_', "")
+        .parse()
+        .map_err(|_| "expected a whole number".to_owned())
 }
 
 fn open_range(text: &str) -> Result<(Option<u64>, Option<u64>), String> {
@@ -230,7 +246,12 @@ fn open_range(text: &str) -> Result<(Option<u64>, Option<u64>), String> {
 fn frames(text: &str) -> Result<(i64, i64), String> {
     let wrong = || "expected A-B, such as 1-48".to_owned();
     // The first character may be the sign of A.
-    let dash = text.char_indices().skip(1).find(|(_, c)| *c == '-').ok_or_else(wrong)?.0;
+    let dash = text
+        .char_indices()
+        .skip(1)
+        .find(|(_, c)| *c == '-')
+        .ok_or_else(wrong)?
+        .0;
     let first: i64 = text[..dash].parse().map_err(|_| wrong())?;
     let last: i64 = text[dash + 1..].parse().map_err(|_| wrong())?;
     if first > last {
@@ -243,7 +264,9 @@ fn frames(text: &str) -> Result<(i64, i64), String> {
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {
-    let parts = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    let parts = text
+        .split_once('x')
+        .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
     match parts {
         Some((w @ 1..=16384, h @ 1..=16384)) => Ok((w, h)),
         _ => Err("expected WIDTHxHEIGHT, each 1 to 16384, such as 1280x720".into()),
@@ -252,10 +275,17 @@ fn size(text: &str) -> Result<(u32, u32), String> {
 
 fn vector(text: &str) -> Result<[f32; 3], String> {
     let wrong = || "expected three numbers, such as 0,1.5,-2".to_owned();
-    let parts: Vec<f32> =
-        text.split(',').map(|p| p.trim().parse()).collect::<Result<_, _>>().map_err(|_| wrong())?;
+    let parts: Vec<f32> = text
+        .split(',')
+        .map(|p| p.trim().parse())
+        .collect::<Result<_, _>>()
+        .map_err(|_| wrong())?;
     let vector: [f32; 3] = parts.try_into().map_err(|_| wrong())?;
-    if vector.iter().all(|x: &f32| x.is_finite()) { Ok(vector) } else { Err(wrong()) }
+    if vector.iter().all(|x: &f32| x.is_finite()) {
+        Ok(vector)
+    } else {
+        Err(wrong())
+    }
 }
 
 #[cfg(test)]

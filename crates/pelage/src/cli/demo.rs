@@ -38,15 +38,28 @@ pub fn run(args: &DemoArgs, say: &Say) -> Result<ExitCode> {
 
     let started = Instant::now();
     let picture = folder.join("picture.png");
-    let view =
-        ViewArgs { size: args.size, samples: None, from: None, to: None, fov: None };
+    let view = ViewArgs {
+        size: args.size,
+        samples: None,
+        from: None,
+        to: None,
+        fov: None,
+        skin: Some(folder.join("skin.png")),
+    };
     job.draw(&hair.strands, &view, &picture, say)?;
-    say.line(format_args!("{} ({})", picture.display(), spent(started.elapsed())));
+    say.line(format_args!(
+        "{} ({})",
+        picture.display(),
+        spent(started.elapsed())
+    ));
     let folder = folder.display();
     say.line("Try next:");
-    say.line(format_args!("  edit {folder}/groom.toml (longer, redder, denser) and run"));
     say.line(format_args!(
-        "  pelage generate {folder}/groom.toml -o {folder}/hair.usdc --picture {folder}/picture.png"
+        "  edit {folder}/groom.toml (longer, redder, denser) and run"
+    ));
+    say.line(format_args!(
+        "  pelage generate {folder}/groom.toml -o {folder}/hair.usdc \
+         --picture {folder}/picture.png --skin {folder}/skin.png"
     ));
     say.line(format_args!("  pelage inspect {folder}/hair.usdc"));
     say.line("  pelage init my-groom --example head");

@@ -1,10 +1,10 @@
 //! `pelage generate`: a recipe's hairs into a file.
 
 use super::args::{GenerateArgs, ViewArgs};
+use super::picture;
 use super::progress::Bar;
 use super::say::{Say, bytes, grouped, spent};
 use super::stats::Stats;
-use super::picture;
 use anyhow::{Context, Result, bail};
 use pelage::io::{WriteOptions, sink_for};
 use pelage::strands::{Collect, SinkError, Tee};
@@ -30,10 +30,13 @@ pub fn run(args: &GenerateArgs, say: &Say) -> Result<ExitCode> {
     let mut stats = job.stats(&report);
     if let Some(path) = &args.picture {
         let started = Instant::now();
-        let view = ViewArgs { size: (1280, 720), samples: None, from: None, to: None, fov: None };
-        job.draw(&first.strands, &view, path, say)?;
+        job.draw(&first.strands, &args.view, path, say)?;
         stats.picture_seconds = Some(started.elapsed().as_secs_f64());
-        say.line(format_args!("{} ({})", path.display(), spent(started.elapsed())));
+        say.line(format_args!(
+            "{} ({})",
+            path.display(),
+            spent(started.elapsed())
+        ));
     }
     if let Some(path) = &args.stats {
         write_stats(&stats, path)?;
@@ -43,7 +46,10 @@ pub fn run(args: &GenerateArgs, say: &Say) -> Result<ExitCode> {
 
 /// Writers note the program that made a file, without a date: same hair, same bytes.
 fn options(ribbons: bool) -> WriteOptions {
-    WriteOptions { ribbons, tool: format!("Pelage {}", env!("CARGO_PKG_VERSION")) }
+    WriteOptions {
+        ribbons,
+        tool: format!("Pelage {}", env!("CARGO_PKG_VERSION")),
+    }
 }
 
 /// A loaded recipe and what is to be made of it.
@@ -62,7 +68,9 @@ impl Job {
             None => Vec::new(),
         };
         let mut job = Self::load(recipe, args.threads, say)?;
-        job.request.hairs = args.hairs(job.loaded.plan.count()).map_err(anyhow::Error::msg)?;
+        job.request.hairs = args
+            .hairs(job.loaded.plan.count())
+            .map_err(anyhow::Error::msg)?;
         if frames.is_empty() && args.frame.is_none() && job.loaded.poses.source().is_animated() {
             bail!("surface.posed has a pose for each frame: say which with --frame or --frames");
         }
@@ -102,7 +110,10 @@ impl Job {
         let (loaded, still) = (&mut self.loaded, self.frame);
         let mut poses = |index: usize| {
             let frame = frames.get(index).copied().unwrap_or(still);
-            loaded.poses.pose(&loaded.recipe, loaded.plan.rest(), frame).map_err(Into::into)
+            loaded
+                .poses
+                .pose(&loaded.recipe, loaded.plan.rest(), frame)
+                .map_err(Into::into)
         };
         let mut progress = |done| {
             bar.set(done);
@@ -168,12 +179,28 @@ impl Job {
         output: &Path,
         say: &Say,
     ) -> Result<()> {
-        let frame = self.request.info.frames.first().copied().unwrap_or(self.frame);
+        let frame = self
+            .request
+            .info
+            .frames
+            .first()
+            .copied()
+            .unwrap_or(self.frame);
         let loaded = &mut self.loaded;
-        let posed = loaded.poses.pose(&loaded.recipe, loaded.plan.rest(), frame)?;
+        let posed = loaded
+            .poses
+            .pose(&loaded.recipe, loaded.plan.rest(), frame)?;
         let surface = posed.as_deref().unwrap_or(loaded.plan.rest());
         let up = self.request.info.up_axis;
-        picture::draw(strands, Some(surface), up, view, self.request.threads, output, say)
+        picture::draw(
+            strands,
+            Some(surface),
+            up,
+            view,
+            self.request.threads,
+            output,
+            say,
+        )
     }
 }
 
@@ -192,7 +219,11 @@ impl Sink for FirstFrame {
     }
 
     fn write(&mut self, strands: &StrandBuffer) -> Result<(), SinkError> {
-        if self.later { Ok(()) } else { self.collect.write(strands) }
+        if self.later {
+            Ok(())
+        } else {
+            self.collect.write(strands)
+        }
     }
 
     fn finish(&mut self) -> Result<(), SinkError> {

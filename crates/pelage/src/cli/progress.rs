@@ -30,13 +30,18 @@ impl Bar {
             bar.set_style(style);
         }
         let wanted = !say.is_quiet() && std::io::stderr().is_terminal();
-        Self { bar, since: Instant::now(), wanted }
+        Self {
+            bar,
+            since: Instant::now(),
+            wanted,
+        }
     }
 
     /// Says how far the work is.
     pub fn set(&self, done: u64) {
         if self.wanted && self.since.elapsed() > PATIENCE && self.bar.is_hidden() {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(REDRAWS_A_SECOND));
+            self.bar
+                .set_draw_target(ProgressDrawTarget::stderr_with_hz(REDRAWS_A_SECOND));
         }
         self.bar.set_position(done);
     }
