@@ -5,8 +5,7 @@
 //! shall follow (one Poisson solve) or from a map. Cotangent weights are clamped
 //! above zero, which keeps the system definite on obtuse triangles.
 
-use crate::charts::Chart;
-use crate::relax::Triangles;
+use crate::sheet::Sheet;
 use glam::{DVec2, DVec3};
 
 /// What the flattening starts from.
@@ -33,31 +32,30 @@ struct Laplacian {
     diagonal: Vec<f64>,
 }
 
-/// Texture coordinates, in units of length, of each vertex of the chart.
-pub fn flatten(mesh: &Triangles, chart: &Chart, start: &Start, rounds: usize) -> Vec<DVec2> {
-    let mut flats = flats(mesh, chart, start);
-    let system = laplacian(chart, &flats);
-    let place = |v: &u32| mesh.positions[*v as usize];
+/// Texture coordinates, in units of length, of each point of the sheet.
+pub fn flatten(sheet: &Sheet, start: &Start, rounds: usize) -> Vec<DVec2> {
+    let mut flats = flats(sheet, start);
+    let system = laplacian(sheet, &flats);
     let mut uv: Vec<DVec2> = match start {
-        Start::Map(map) => chart.vertices.iter().map(|v| map(place(v))).collect(),
+        Start::Map(map) => sheet.points.iter().map(|&p| map(p)).collect(),
         Start::Along(_) => {
-            let mut uv = vec![DVec2::ZERO; chart.vertices.len()];
-            solve(&system, chart, &flats, &mut uv, 600);
+            let mut uv = vec![DVec2::ZERO; sheet.points.len()];
+            solve(&system, sheet, &flats, &mut uv, 600);
             uv
         }
     };
     for round in 0..rounds {
-        turn(chart, &mut flats, &uv);
+        turn(sheet, &mut flats, &uv);
         let steps = if round + 1 == rounds { 200 } else { 60 };
-        solve(&system, chart, &flats, &mut uv, steps);
+        solve(&system, sheet, &flats, &mut uv, steps);
     }
     uv
 }
 
-fn flats(mesh: &Triangles, chart: &Chart, start: &Start) -> Vec<Flat> {
-    (chart.triangles.iter())
-        .map(|&t| {
-            let p = mesh.triangles[t as usize].map(|v| mesh.positions[v as usize]);
+fn flats(sheet: &Sheet, start: &Start) -> Vec<Flat> {
+    (sheet.corners.iter())
+        .map(|c| {
+            let p = c.map(|v| sheet.points[v as usize]);
             let normal = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or(DVec3::Y);
             let wanted = match start {
                 Start::Along(field) => field((p[0] + p[1] + p[2]) / 3.0, normal),
@@ -81,10 +79,10 @@ fn flats(mesh: &Triangles, chart: &Chart, start: &Start) -> Vec<Flat> {
         .collect()
 }
 
-fn laplacian(chart: &Chart, flats: &[Flat]) -> Laplacian {
-    let n = chart.vertices.len();
+fn laplacian(sheet: &Sheet, flats: &[Flat]) -> Laplacian {
+    let n = sheet.points.len();
     let mut entries: Vec<(u32, u32, f64)> = Vec::with_capacity(flats.len() * 6);
-    for (corners, flat) in chart.corners.iter().zip(flats) {
+    for (corners, flat) in sheet.corners.iter().zip(flats) {
         for k in 0..3 {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
             entries.push((a, b, flat.weights[k]));
@@ -118,8 +116,8 @@ fn laplacian(chart: &Chart, flats: &[Flat]) -> Laplacian {
 }
 
 /// The local step: the turn that best carries each triangle onto its image.
-fn turn(chart: &Chart, flats: &mut [Flat], uv: &[DVec2]) {
-    for (corners, flat) in chart.corners.iter().zip(flats) {
+fn turn(sheet: &Sheet, flats: &mut [Flat], uv: &[DVec2]) {
+    for (corners, flat) in sheet.corners.iter().zip(flats) {
         let mut sum = DVec2::ZERO;
         for k in 0..3 {
             let image = uv[corners[(k + 1) % 3] as usize] - uv[corners[k] as usize];
@@ -132,9 +130,9 @@ fn turn(chart: &Chart, flats: &mut [Flat], uv: &[DVec2]) {
 
 /// The global step: conjugate gradients with a diagonal preconditioner, from
 /// the `uv` there are.
-fn solve(system: &Laplacian, chart: &Chart, flats: &[Flat], uv: &mut [DVec2], steps: usize) {
+fn solve(system: &Laplacian, sheet: &Sheet, flats: &[Flat], uv: &mut [DVec2], steps: usize) {
     let mut residual = vec![DVec2::ZERO; uv.len()];
-    for (corners, flat) in chart.corners.iter().zip(flats) {
+    for (corners, flat) in sheet.corners.iter().zip(flats) {
         for k in 0..3 {
             let pull = flat.turn.rotate(flat.edges[k]) * flat.weights[k];
             residual[corners[(k + 1) % 3] as usize] += pull;

@@ -64,11 +64,18 @@ fn guide<P: Copy + PartialEq>(
         let mut next = p + direction * step;
         let t = k as f64 / steps as f64;
         let height = growth.clearance * growth.length * t * (2.0 - t);
-        let lacking = height - solid.distance(next);
-        if lacking > 0.0 {
-            next += solid.normal(next) * lacking;
-            next = p + (next - p).normalize_or(root.normal) * step;
-            direction = (next - p) / step;
+        // Turn away from the skin, keeping the step's length; where the skin curves
+        // up all around, leave it by the shortest way.
+        for attempt in 0..4 {
+            let lacking = height - solid.distance(next);
+            if lacking <= 0.0 {
+                break;
+            }
+            next += solid.normal(next) * (lacking * 1.1);
+            if attempt < 3 {
+                next = p + (next - p).normalize_or(root.normal) * step;
+            }
+            direction = (next - p).normalize_or(root.normal);
         }
         p = next;
         if k % SUBSTEPS == 0 {

@@ -25,11 +25,13 @@ pub fn noise(channel: u64, p: DVec3) -> f64 {
     let t = p - cell;
     // Quintic fade: continuous second derivatives, hence no creases in shading.
     let fade = t * t * t * (t * (t * 6.0 - DVec3::splat(15.0)) + DVec3::splat(10.0));
+    // One multiplication an axis, with odd constants, then one good mix.
     let corner = |dx: i64, dy: i64, dz: i64| {
-        let key = mix((cell.x as i64 + dx) as u64)
-            ^ mix((cell.y as i64 + dy) as u64).rotate_left(21)
-            ^ mix((cell.z as i64 + dz) as u64).rotate_left(42);
-        unit(channel, key) * 2.0 - 1.0
+        let key = ((cell.x as i64 + dx) as u64).wrapping_mul(0xd6e8_feb8_6659_fd93)
+            ^ ((cell.y as i64 + dy) as u64).wrapping_mul(0xa076_1d64_78bd_642f)
+            ^ ((cell.z as i64 + dz) as u64).wrapping_mul(0xe703_7ed1_a0b4_28db);
+        let bits = mix(key ^ channel.rotate_left(32)) >> 11;
+        bits as f64 / (1u64 << 52) as f64 - 1.0
     };
     let along_x = |dy, dz| mix_between(corner(0, dy, dz), corner(1, dy, dz), fade.x);
     let along_y = |dz| mix_between(along_x(0, dz), along_x(1, dz), fade.y);

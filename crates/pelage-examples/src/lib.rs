@@ -13,6 +13,9 @@ mod flatten;
 mod grass;
 mod grow;
 mod hash;
+#[cfg(test)]
+mod laws;
+mod lift;
 mod model;
 mod obj;
 mod pack;
@@ -21,6 +24,8 @@ mod raster;
 mod relax;
 mod scatter;
 mod sdf;
+mod sheet;
+mod untangle;
 
 pub use example::{Example, example, names};
 pub use files::write;

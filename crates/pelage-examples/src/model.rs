@@ -2,9 +2,12 @@
 
 use crate::charts::cut_into_charts;
 use crate::flatten::{Start, flatten};
+use crate::lift::lift_overlaps;
 use crate::pack::pack;
 use crate::raster::Texel;
 use crate::relax::Triangles;
+use crate::sheet::Sheet;
+use crate::untangle::untangle;
 use glam::{DVec2, DVec3};
 use pelage_surface::PolygonMesh;
 
@@ -23,7 +26,7 @@ pub struct Model {
 const GUTTER: f64 = 8.0 / 1024.0;
 
 /// Rounds of as-rigid-as-possible flattening: more change little.
-const FLATTENING_ROUNDS: usize = 12;
+const FLATTENING_ROUNDS: usize = 16;
 
 impl Model {
     /// Cuts the mesh along labels and `cut`, flattens and packs the charts.
@@ -34,10 +37,26 @@ impl Model {
         cut: impl Fn(usize, usize) -> bool,
         start_of: impl Fn(u8) -> Start<'a>,
     ) -> Self {
-        let charts = cut_into_charts(&mesh, &labels, cut);
-        let mut flat: Vec<Vec<DVec2>> = (charts.iter())
-            .map(|c| flatten(&mesh, c, &start_of(c.label), FLATTENING_ROUNDS))
-            .collect();
+        let mut waiting = cut_into_charts(&mesh, &labels, cut);
+        let (mut charts, mut flat) = (Vec::new(), Vec::new());
+        while let Some(chart) = waiting.pop() {
+            let sheet = Sheet::new(&chart, &mesh.positions);
+            let mut uv = flatten(&sheet, &start_of(chart.label), FLATTENING_ROUNDS);
+            untangle(&sheet, &mut uv);
+            uv.truncate(chart.vertices.len());
+            match lift_overlaps(&chart, &uv) {
+                // A piece is smaller than what it was lifted from: this ends.
+                Some((kept, kept_uv, pieces)) if !kept.triangles.is_empty() => {
+                    charts.push(kept);
+                    flat.push(kept_uv);
+                    waiting.extend(pieces);
+                }
+                _ => {
+                    charts.push(chart);
+                    flat.push(uv);
+                }
+            }
+        }
         pack(&charts, &mut flat, GUTTER);
         let mut uvs = vec![[DVec2::ZERO; 3]; mesh.triangles.len()];
         for (chart, uv) in charts.iter().zip(&flat) {

@@ -20,8 +20,8 @@ pub struct Canvas {
     pub size: usize,
     /// What lies under each texel's centre.
     pub texels: Vec<Option<Texel>>,
-    /// How many texel centres lie inside more than one triangle.
-    pub overlaps: usize,
+    /// Two triangles of each texel centre that lies inside more than one.
+    pub overlapping: Vec<[u32; 2]>,
 }
 
 /// Finds the triangle under each texel's centre. `uvs` has three entries a
@@ -30,7 +30,7 @@ pub fn canvas(uvs: &[[DVec2; 3]], size: usize) -> Canvas {
     let mut out = Canvas {
         size,
         texels: vec![None; size * size],
-        overlaps: 0,
+        overlapping: Vec::new(),
     };
     for (triangle, uv) in uvs.iter().enumerate() {
         // In texels, rows downwards.
@@ -55,7 +55,8 @@ pub fn canvas(uvs: &[[DVec2; 3]], size: usize) -> Canvas {
                 }
                 let there = &mut out.texels[y * size + x];
                 if there.is_some() && weights.iter().all(|&w| w > 1e-9) {
-                    out.overlaps += 1;
+                    out.overlapping
+                        .push([triangle as u32, there.map_or(0, |t| t.triangle)]);
                 }
                 *there = Some(Texel {
                     triangle: triangle as u32,

@@ -49,9 +49,12 @@ pub fn relaxed<P: Copy + PartialEq + Sync + Send>(
                     .map(|&j| net.positions[j as usize])
                     .sum::<DVec3>()
                     / ring.len().max(1) as f64;
-                let normal = solid.normal(p);
+                let gradient = solid.gradient(p);
+                let steep = gradient.length_squared().max(1e-3);
                 let slide = mean - p;
-                solid.project(p + (slide - normal * slide.dot(normal)) * 0.6, 1)
+                let moved = p + (slide - gradient * (slide.dot(gradient) / steep)) * 0.6;
+                // One Newton step with the slope from before the slide.
+                moved - gradient * (solid.distance(moved) / steep)
             })
             .collect();
     }

@@ -115,6 +115,16 @@ impl Primitive {
         }
     }
 
+    /// Centre and radius of a ball around the body.
+    fn ball(&self) -> (DVec3, f64) {
+        match *self {
+            Self::RoundCone { a, b, ra, rb } | Self::Leaf { a, b, ra, rb, .. } => {
+                ((a + b) * 0.5, 0.5 * a.distance(b) + ra.max(rb))
+            }
+            Self::Ellipsoid { center, radii, .. } => (center, radii.max_element()),
+        }
+    }
+
     /// The same body on the other side of the plane x = 0.
     pub fn mirrored(&self) -> Self {
         let m = |v: DVec3| DVec3::new(-v.x, v.y, v.z);
@@ -193,6 +203,8 @@ pub struct Blob<P> {
     pub carved: bool,
     /// What it belongs to.
     pub part: P,
+    /// Centre and radius of a ball around the body.
+    ball: (DVec3, f64),
 }
 
 /// Blobs, melted together in their order.
@@ -220,6 +232,7 @@ impl<P: Copy + PartialEq> Solid<P> {
             blend,
             carved: false,
             part,
+            ball: primitive.ball(),
         });
     }
 
@@ -230,6 +243,7 @@ impl<P: Copy + PartialEq> Solid<P> {
             blend,
             carved: true,
             part,
+            ball: primitive.ball(),
         });
     }
 
@@ -237,6 +251,12 @@ impl<P: Copy + PartialEq> Solid<P> {
     pub fn distance(&self, p: DVec3) -> f64 {
         let mut d = f64::MAX / 4.0;
         for blob in &self.blobs {
+            let (center, radius) = blob.ball;
+            let reach = blob.blend + radius + if blob.carved { -d } else { d };
+            // Too far to matter, even where a bound is half the true distance.
+            if reach > 0.0 && center.distance_squared(p) > 4.0 * reach * reach {
+                continue;
+            }
             let own = blob.primitive.distance(p);
             d = if blob.carved {
                 -smooth_min(-d, own, blob.blend)
@@ -250,12 +270,22 @@ impl<P: Copy + PartialEq> Solid<P> {
         }
     }
 
-    /// Gradient of the distance by central differences.
+    /// Gradient of the distance by differences to the corners of a tetrahedron
+    /// (Quilez, "Normals for an SDF"): four evaluations, no preferred axis.
     pub fn gradient(&self, p: DVec3) -> DVec3 {
         // The step is far above f64 rounding and far below any feature.
-        let h = 1e-5;
-        let along = |e: DVec3| self.distance(p + e * h) - self.distance(p - e * h);
-        DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z)) / (2.0 * h)
+        const STEP: f64 = 1e-5;
+        const CORNERS: [DVec3; 4] = [
+            DVec3::new(1.0, -1.0, -1.0),
+            DVec3::new(-1.0, -1.0, 1.0),
+            DVec3::new(-1.0, 1.0, -1.0),
+            DVec3::new(1.0, 1.0, 1.0),
+        ];
+        let sum: DVec3 = CORNERS
+            .map(|c| c * self.distance(p + c * STEP))
+            .iter()
+            .sum();
+        sum / (4.0 * STEP)
     }
 
     /// Unit outward normal near the surface.

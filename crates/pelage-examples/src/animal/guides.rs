@@ -17,19 +17,15 @@ pub const SEGMENTS: usize = 7;
 
 /// About `count` combed guides, none on bare skin.
 pub fn guides(body: &Solid<Part>, model: &Model, count: usize) -> StrandBuffer {
-    let bare = |p: DVec3, normal: DVec3| Spot {
-        p,
-        normal,
-        shares: shares(body, p),
-        label: label::PELT,
-    };
     // Organs lie inside or upon the body; only the skin itself grows guides.
     let mut furred = model.clone();
     let keep = |t: usize| model.labels[t] < label::SOLE;
     let kept: Vec<usize> = (0..model.labels.len()).filter(|&t| keep(t)).collect();
     furred.mesh.triangles = kept.iter().map(|&t| model.mesh.triangles[t]).collect();
     furred.uvs = kept.iter().map(|&t| model.uvs[t]).collect();
-    let mut roots = scatter(&furred, count, 0x0F0C, |p, n| bare(p, n).density() > 0.02);
+    let mut roots = scatter(&furred, count, 0x0F0C, |p, n| {
+        Spot::new(body, p, n, label::PELT).density() > 0.02
+    });
     for root in &mut roots {
         root.texel.triangle = kept[root.texel.triangle as usize] as u32;
     }

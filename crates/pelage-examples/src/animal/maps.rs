@@ -1,7 +1,6 @@
 //! The cub's maps, painted through its atlas.
 
 use super::pattern::Spot;
-use super::regions::shares;
 use super::shape::Part;
 use crate::model::Model;
 use crate::raster::{Texel, canvas};
@@ -13,12 +12,7 @@ pub fn maps(body: &Solid<Part>, model: &Model, texels: usize) -> Vec<(&'static s
     let canvas = canvas(&model.uvs, texels);
     let spot = |texel: &Texel| {
         let (p, normal) = model.place(texel);
-        Spot {
-            p,
-            normal,
-            shares: shares(body, p),
-            label: model.labels[texel.triangle as usize],
-        }
+        Spot::new(body, p, normal, model.labels[texel.triangle as usize])
     };
     // One pass over the places; the seven numbers and more are split below.
     let look = |texel: &Texel| {

@@ -2,15 +2,20 @@
 
 use super::pelt::label;
 use super::regions::{
-    Shares, along_tail, belly, chest, from_eye, from_nose, inner_ear, up_the_muzzle,
+    Shares, along_tail, belly, chest, from_eye, from_nose, inner_ear, shares, up_the_muzzle,
 };
-use super::shape::{EYE, EYE_RADIUS};
+use super::shape::{EYE, EYE_RADIUS, Part};
 use crate::hash::{fractal, smoothstep};
+use crate::sdf::Solid;
 use glam::DVec3;
 
 /// A place on the cub and all that its look depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct Spot {
+    /// Raggedness of edges here: a small number that differs from tuft to tuft.
+    ragged: f64,
+    /// How far along the tail the place is, 0..1.
+    along_tail: f64,
     /// Position.
     pub p: DVec3,
     /// Unit normal.
@@ -30,12 +35,19 @@ fn hex(code: u32) -> DVec3 {
     ) / 255.0
 }
 
-/// Ragged edges: a small number that differs from tuft to tuft.
-fn ragged(p: DVec3) -> f64 {
-    fractal(11, p * 38.0) * 0.5 + fractal(12, p * 110.0) * 0.4
-}
-
 impl Spot {
+    /// The spot at `p` on a triangle with `label`.
+    pub fn new(body: &Solid<Part>, p: DVec3, normal: DVec3, label: u8) -> Self {
+        Self {
+            ragged: fractal(11, p * 38.0) * 0.5 + fractal(12, p * 110.0) * 0.4,
+            along_tail: along_tail(p),
+            p,
+            normal,
+            shares: shares(body, p),
+            label,
+        }
+    }
+
     /// Whether no hair grows on the triangle at all.
     fn is_bare(&self) -> bool {
         self.label >= label::SOLE
@@ -48,7 +60,7 @@ impl Spot {
         }
         let eyes = smoothstep(EYE_RADIUS + 0.004, EYE_RADIUS + 0.016, from_eye(self.p));
         let nose = smoothstep(0.022, 0.040, from_nose(self.p));
-        let ear = 1.0 - 0.7 * inner_ear(self.p);
+        let ear = 1.0 - 0.7 * inner_ear(self.p, self.normal);
         let pads = smoothstep(0.004, 0.016, self.p.y);
         let lips = 1.0 - 0.65 * self.lips();
         let part = self.shares.mix(0.80, 1.0, 0.95, 0.85, 0.80, 1.0);
@@ -69,7 +81,7 @@ impl Spot {
         }
         let eyes = 0.25 + 0.75 * smoothstep(0.02, 0.065, from_eye(self.p) - EYE_RADIUS);
         let nose = 0.35 + 0.65 * smoothstep(0.02, 0.09, from_nose(self.p));
-        let ear = 1.0 - 0.35 * inner_ear(self.p);
+        let ear = 1.0 - 0.35 * inner_ear(self.p, self.normal);
         let lips = 1.0 - 0.5 * self.lips();
         let tufts = 0.90 + 0.10 * fractal(21, self.p * 24.0);
         tufts * eyes * nose * ear * lips
@@ -77,7 +89,7 @@ impl Spot {
 
     /// 1 where the fur is white.
     fn white(&self) -> f64 {
-        let r = ragged(self.p);
+        let r = self.ragged;
         let p = self.p;
         let torso = belly(p, self.normal).max(chest(p, self.normal) * 0.98);
         let bib = smoothstep(0.35, 0.65, torso + 0.25 * r);
@@ -86,8 +98,8 @@ impl Spot {
         let face = smoothstep(0.012, -0.012, p.y - face_line + 0.016 * r)
             * smoothstep(0.25, 0.31, p.z + 0.02 * r);
         let brow = self.brow() * 0.9;
-        let ear = inner_ear(p) * 0.85;
-        let tip = smoothstep(0.70, 0.80, along_tail(p) + 0.09 * r);
+        let ear = inner_ear(p, self.normal) * 0.85;
+        let tip = smoothstep(0.70, 0.80, self.along_tail + 0.09 * r);
         (self.shares)
             .mix(bib, bib.max(face * 0.6), face.max(brow), ear, 0.0, tip)
             .clamp(0.0, 1.0)
@@ -97,16 +109,16 @@ impl Spot {
     fn brow(&self) -> f64 {
         let spot = DVec3::new(0.050, 0.722, 0.452);
         let p = DVec3::new(self.p.x.abs(), self.p.y, self.p.z);
-        1.0 - smoothstep(0.010, 0.026, p.distance(spot) + 0.004 * ragged(self.p))
+        1.0 - smoothstep(0.010, 0.026, p.distance(spot) + 0.004 * self.ragged)
     }
 
     /// 1 where the fur is nearly black: socks, ear tips, the tail's band.
     fn dark(&self) -> f64 {
-        let r = ragged(self.p);
+        let r = self.ragged;
         let p = self.p;
         let sock = smoothstep(0.165, 0.105, p.y + 0.035 * r);
-        let ear = smoothstep(0.825, 0.870, p.y + 0.02 * r) * (1.0 - inner_ear(p));
-        let along = along_tail(p) + 0.07 * r;
+        let ear = smoothstep(0.825, 0.870, p.y + 0.02 * r) * (1.0 - inner_ear(p, self.normal));
+        let along = self.along_tail + 0.07 * r;
         let band = smoothstep(0.52, 0.66, along) * (1.0 - smoothstep(0.70, 0.80, along));
         let tear = self.tear_line() * 0.75;
         self.shares
@@ -121,12 +133,12 @@ impl Spot {
         let end = DVec3::new(0.028, 0.616, 0.512);
         let near = super::regions::segment_nearest(p, eye, end).distance(p);
         let lids = 1.0 - smoothstep(EYE_RADIUS + 0.007, EYE_RADIUS + 0.018, from_eye(p));
-        (1.0 - smoothstep(0.006, 0.016, near + 0.003 * ragged(self.p))).max(lids)
+        (1.0 - smoothstep(0.006, 0.016, near + 0.003 * self.ragged)).max(lids)
     }
 
     /// 1 on the saddle along the spine.
     fn saddle(&self) -> f64 {
-        let r = ragged(self.p);
+        let r = self.ragged;
         let spine = smoothstep(0.45, 0.95, self.normal.y + 0.22 * r);
         let crown = smoothstep(0.5, 0.9, self.normal.y + 0.2 * r) * up_the_muzzle(self.p);
         self.shares
@@ -164,7 +176,7 @@ impl Spot {
             label::EYE.. => self.eye_color(),
             _ => {
                 let furred = self.root_color() * 0.62;
-                let ear = inner_ear(self.p) * 0.7;
+                let ear = inner_ear(self.p, self.normal) * 0.7;
                 let rim = 1.0 - smoothstep(0.002, 0.009, from_eye(self.p) - EYE_RADIUS);
                 let snout = 1.0 - smoothstep(0.024, 0.034, from_nose(self.p));
                 let lips = self.lips() * 0.8;

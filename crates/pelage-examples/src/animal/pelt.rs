@@ -2,7 +2,7 @@
 //! hide on the floor, so that no seam crosses fur one looks at and texture u runs
 //! from head to tail; ears, soles, snout, eyes and nose are charts of their own.
 
-use super::regions::segment_nearest;
+use super::regions::{along_tail, segment_nearest};
 use super::shape::{EYE, EYE_RADIUS, NOSE, NOSE_RADII, Part, TAIL, leg_joints, mesh as body_mesh};
 use crate::flatten::Start;
 use crate::model::Model;
@@ -21,12 +21,16 @@ pub mod label {
     pub const EAR_BACK: u8 = 2;
     /// The end of the muzzle, under the nose.
     pub const SNOUT: u8 = 3;
+    /// A lower leg with its paw.
+    pub const LEG: u8 = 4;
+    /// The tail.
+    pub const TAIL: u8 = 5;
     /// Under a paw.
-    pub const SOLE: u8 = 4;
+    pub const SOLE: u8 = 6;
     /// Front of an eye; [`EYE`] + 1 is its back.
-    pub const EYE: u8 = 5;
+    pub const EYE: u8 = 7;
     /// Front of the nose; [`NOSE`] + 1 is its back.
-    pub const NOSE: u8 = 7;
+    pub const NOSE: u8 = 9;
 }
 
 /// From the muzzle over neck and back to the end of the tail.
@@ -97,18 +101,35 @@ fn along(body: &Solid<Part>, axis: &[DVec3], p: DVec3, normal: DVec3) -> DVec3 {
     to_tail.normalize() * (1.0 - share) + around * share
 }
 
+/// How far the charts of the ears reach onto the head.
+const EAR_FOOT: f64 = 0.014;
+
+/// The same for the legs, and the height where their charts end.
+const LEG_FOOT: f64 = 0.004;
+const LEG_TOP: f64 = 0.235;
+const BETWEEN_LEGS: f64 = 0.028;
+
 fn label_of(body: &Solid<Part>, p: DVec3, normal: DVec3) -> u8 {
     let nose = DVec3::from(NOSE) - DVec3::Z * 0.004;
+    // The fillet at an ear's foot goes with the ear: it would fold in the pelt.
+    let ear = body.part_distance(p, |part| matches!(part, Part::Ear(_)));
+    let head = body.part_distance(p, |part| part == Part::Head);
+    if p.y > 0.74 && ear < head + EAR_FOOT {
+        let ahead = DVec3::new(0.3 * p.x.signum(), -0.1, 1.0);
+        return if normal.dot(ahead) > 0.0 {
+            label::EAR_FRONT
+        } else {
+            label::EAR_BACK
+        };
+    }
+    let leg = body.part_distance(p, |part| matches!(part, Part::Leg(..)));
+    let rest = body.part_distance(p, |part| !matches!(part, Part::Leg(..)));
+    if p.y < LEG_TOP && (p.x.abs() > BETWEEN_LEGS || p.y < 0.17) && leg < rest + LEG_FOOT {
+        let sole = normal.y < -0.75 && p.y < 0.02;
+        return if sole { label::SOLE } else { label::LEG };
+    }
     match body.nearest_part(p) {
-        Some(Part::Ear(left)) if p.y > 0.795 => {
-            let ahead = DVec3::new(if left { 0.3 } else { -0.3 }, -0.1, 1.0);
-            if normal.dot(ahead) > 0.0 {
-                label::EAR_FRONT
-            } else {
-                label::EAR_BACK
-            }
-        }
-        Some(Part::Leg(..)) if normal.y < -0.75 && p.y < 0.02 => label::SOLE,
+        Some(Part::Tail) if along_tail(p) > 0.16 => label::TAIL,
         Some(Part::Head) if p.distance(nose) < 0.036 => label::SNOUT,
         _ => label::PELT,
     }
@@ -165,22 +186,27 @@ pub fn model(body: &Solid<Part>, step: f64) -> Model {
     let slits: Vec<_> = centers.iter().map(|&p| slit_side(p)).collect();
     let pelt = labels.clone();
     let cut = |a: usize, b: usize| {
-        if pelt[a] != label::PELT || !(below[a] && below[b]) {
+        if !matches!(pelt[a], label::PELT | label::LEG | label::TAIL) || !(below[a] && below[b]) {
             return false;
         }
         let midline = (centers[a].x > 0.0) != (centers[b].x > 0.0);
         let slit = match (slits[a], slits[b]) {
-            (Some((leg, side)), Some((other, beyond))) => leg == other && side != beyond,
+            (Some((leg, side)), Some((other, beyond))) => {
+                pelt[a] == label::LEG && leg == other && side != beyond
+            }
             _ => false,
         };
         midline || slit
     };
     let field = |p: DVec3, n: DVec3| along(body, &axis, p, n);
     let upright = |p: DVec3| DVec2::new(p.x, p.y);
-    let from_above = |p: DVec3| DVec2::new(p.x, p.z);
+    let from_behind = |p: DVec3| DVec2::new(-p.x, p.y);
+    let from_below = |p: DVec3| DVec2::new(p.x, p.z);
     Model::unwrapped(mesh, labels, cut, |l| match l {
-        label::PELT => Start::Along(&field),
-        label::SOLE => Start::Map(&from_above),
+        label::PELT | label::LEG | label::TAIL => Start::Along(&field),
+        label::SOLE => Start::Map(&from_below),
+        label::EAR_BACK => Start::Map(&from_behind),
+        l if l == label::EYE + 1 || l == label::NOSE + 1 => Start::Map(&from_behind),
         _ => Start::Map(&upright),
     })
 }

@@ -121,9 +121,12 @@ pub fn chest(p: DVec3, normal: DVec3) -> f64 {
 }
 
 /// 1 in the hollow of the ears.
-pub fn inner_ear(p: DVec3) -> f64 {
+pub fn inner_ear(p: DVec3, normal: DVec3) -> f64 {
     let [low, high] = EAR_HOLLOW.map(|(end, _)| DVec3::from(end));
     let beside = DVec3::new(p.x.abs(), p.y, p.z);
-    let away = segment_nearest(beside, low, high).distance(beside);
-    smoothstep(0.060, 0.040, away)
+    let nearest = segment_nearest(beside, low, high);
+    let taper = 0.022 * (nearest.y - low.y) / (high.y - low.y);
+    let ahead = DVec3::new(0.3 * p.x.signum(), -0.1, 1.0);
+    smoothstep(0.060 - taper, 0.040 - taper, nearest.distance(beside))
+        * smoothstep(-0.1, 0.4, normal.dot(ahead))
 }

@@ -92,9 +92,10 @@ pub fn body() -> Solid<Part> {
         leg(&mut solid, true, left);
         leg(&mut solid, false, left);
     }
-    for pair in TAIL.windows(2) {
+    for (k, pair) in TAIL.windows(2).enumerate() {
         let [(a, ra), (b, rb)] = [pair[0], pair[1]];
-        solid.add(Part::Tail, 0.05, cone(a, ra, b, rb));
+        let blend = if k == 0 { 0.12 } else { 0.06 };
+        solid.add(Part::Tail, blend, cone(a, ra, b, rb));
     }
     head(&mut solid);
     solid.floor = Some((0.0, 0.012));
@@ -132,9 +133,9 @@ fn leg(solid: &mut Solid<Part>, front: bool, left: bool) {
     solid.add(part, 0.03, ellipsoid(paw, [0.050, 0.042, 0.064]));
     // Two dents between three toes.
     for side in [-1.0, 1.0] {
-        let toe = ankle + DVec3::new(side * 0.017, 0.0, 0.092);
+        let toe = ankle + DVec3::new(side * 0.017, 0.0, 0.095);
         let (low, high) = ([toe.x, 0.0, toe.z], [toe.x, 0.052, toe.z - 0.012]);
-        solid.carve(part, 0.014, cone(low, 0.0075, high, 0.005));
+        solid.carve(part, 0.018, cone(low, 0.007, high, 0.004));
     }
 }
 
@@ -163,7 +164,7 @@ fn head(solid: &mut Solid<Part>) {
         0.02,
         cone([0.020, 0.590, 0.44], 0.030, [0.014, 0.594, 0.526], 0.026),
     );
-    // Lids: a socket, and a ring of flesh around it.
+    // Lids: a mound of flesh out of which the eye looks.
     let [x, y, z] = EYE;
     both(
         solid,
@@ -171,10 +172,6 @@ fn head(solid: &mut Solid<Part>) {
         0.03,
         sphere([x, y + 0.006, z - 0.014], EYE_RADIUS + 0.008),
     );
-    for side in [1.0, -1.0] {
-        let socket = sphere([side * x, y, z + 0.006], EYE_RADIUS + 0.001);
-        solid.carve(head, 0.010, socket);
-    }
     for left in [true, false] {
         ear(solid, left);
     }
