@@ -39,7 +39,7 @@ impl Ray {
 }
 
 /// How far tubes reach into each other, in half widths: enough for the largest turn
-/// that strands are cut by where they are wide.
+/// that strands are cut by where they are wide. Strands become longer by as much.
 const JOINT: f32 = 0.1;
 
 /// Distance along the ray and place along the leaf (0 at `a`, 1 at `b`) where it is
