@@ -4,7 +4,7 @@ use pelage_render::{
     Backdrop, Camera, Picture, Reflection, RenderError, Scene, Settings, Shape, UpAxis, render,
 };
 use pelage_strands::StrandBuffer;
-use pelage_surface::Mesh;
+use pelage_surface::{Mesh, PolygonMesh};
 
 /// A strand from `points` of one `width`.
 fn strand(points: &[[f32; 3]], width: f32) -> StrandBuffer {
@@ -46,13 +46,7 @@ fn hair_ball(count: usize) -> StrandBuffer {
 
 /// A ball of radius 1 in `rings` of latitude.
 fn ball(rings: u32) -> Mesh {
-    let mut mesh = Mesh {
-        positions: Vec::new(),
-        triangles: Vec::new(),
-        normals: Vec::new(),
-        uvs: Vec::new(),
-        tangents: Vec::new(),
-    };
+    let mut mesh = PolygonMesh::default();
     let columns = rings * 2;
     for ring in 0..=rings {
         for column in 0..columns {
@@ -67,12 +61,16 @@ fn ball(rings: u32) -> Mesh {
             let corner = |r: u32, c: u32| (ring + r) * columns + c;
             let (a, b) = (corner(0, column), corner(0, next));
             let (c, d) = (corner(1, next), corner(1, column));
-            mesh.triangles.extend([[a, b, c], [a, c, d]]);
+            for t in [[a, b, c], [a, c, d]] {
+                mesh.face_sizes.push(3);
+                mesh.corner_vertices.extend(t);
+            }
         }
     }
-    let normal = |v: u32| mesh.positions[v as usize];
-    mesh.normals = mesh.triangles.iter().map(|t| t.map(normal)).collect();
-    mesh
+    mesh.corner_normals = (mesh.corner_vertices.iter())
+        .map(|&v| mesh.positions[v as usize])
+        .collect();
+    Mesh::new(mesh).expect("a ball is a surface")
 }
 
 fn small(width: u32, height: u32) -> Settings {
