@@ -34,7 +34,7 @@ fn law_1_any_split_thread_count_and_chunk_gives_the_same_bits() {
 #[test]
 fn law_1_the_same_bytes_on_every_machine() {
     // A change here changes every groom of every user: say so in CHANGELOG.md.
-    const EXPECTED: u64 = 0;
+    const EXPECTED: u64 = 0xb0dc_83a9_03b1_83a1;
     let strands = collect(&plan(), 0..2000, 2);
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     let mut add = |bytes: &[u8]| {
@@ -221,26 +221,25 @@ fn hairs_that_grow_side_by_side_look_alike_also_where_their_guides_change() {
     }
     .plan();
     let strands = collect(&plan, 0..5000, 2);
+    let root = |i: usize| strands.strand_points(i)[0];
     let tip = |i: usize| {
         let points = strands.strand_points(i);
         points[points.len() - 1] - points[0]
     };
-    let root = |i: usize| strands.strand_points(i)[0];
     let mut pairs = 0;
     for i in 0..strands.len() {
         for j in i + 1..strands.len() {
             let apart = root(i).distance(root(j));
-            if apart < 0.01 {
+            if apart < 0.02 {
                 pairs += 1;
+                // Guides stand 0.25 apart and are 0.4 long: over that distance a tip may
+                // turn right round, some 3 lengths a length. A jump would be 20.
                 let jump = tip(i).distance(tip(j));
-                assert!(
-                    jump < 40.0 * apart,
-                    "hairs {i} and {j}: {jump} over {apart}"
-                );
+                assert!(jump < 6.0 * apart, "hairs {i}, {j}: {jump} over {apart}");
             }
         }
     }
-    assert!(pairs > 100, "{pairs}");
+    assert!(pairs > 300, "{pairs}");
 }
 
 #[test]
