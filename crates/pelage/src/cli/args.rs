@@ -1,6 +1,6 @@
 //! What can be typed.
 
-use clap::{Args, Parser, Subcommand, ValueHint};
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -173,6 +173,7 @@ pub struct RenderArgs {
 
 /// Camera and quality of a picture.
 #[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Picture")]
 pub struct ViewArgs {
     /// Size of the picture.
     #[arg(long, default_value = "1280x720", value_parser = size, value_name = "WxH")]
@@ -189,9 +190,25 @@ pub struct ViewArgs {
     /// Vertical field of view in degrees.
     #[arg(long, value_name = "DEGREES")]
     pub fov: Option<f32>,
+    /// Draw hairs as round tubes instead of ribbons that face the camera.
+    #[arg(long)]
+    pub round: bool,
+    /// How hairs reflect light.
+    #[arg(long, value_enum, default_value_t, value_name = "MODEL")]
+    pub shading: Shading,
     /// Image with the colours of the surface, by its UVs.
     #[arg(long, value_hint = ValueHint::FilePath, value_name = "IMAGE")]
     pub skin: Option<PathBuf>,
+}
+
+/// A model of how hairs reflect light.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum Shading {
+    /// Marschner's lobes with dual scattering.
+    #[default]
+    Marschner,
+    /// Kajiya and Kay's: plainer and a little faster.
+    KajiyaKay,
 }
 
 /// `pelage inspect`.

@@ -1,6 +1,6 @@
 //! `pelage demo`: a furry animal, from nothing.
 
-use super::args::{DemoArgs, ViewArgs};
+use super::args::{DemoArgs, Shading, ViewArgs};
 use super::generate::{FirstFrame, Job};
 use super::say::{Say, spent};
 use anyhow::{Context, Result};
@@ -44,6 +44,8 @@ pub fn run(args: &DemoArgs, say: &Say) -> Result<ExitCode> {
         from: None,
         to: None,
         fov: None,
+        round: false,
+        shading: Shading::default(),
         skin: Some(folder.join("skin.png")),
     };
     job.draw(&hair.strands, &view, &picture, say)?;

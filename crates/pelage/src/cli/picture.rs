@@ -1,12 +1,12 @@
 //! `pelage render`, and the pictures of `generate` and `demo`.
 
-use super::args::{RenderArgs, ViewArgs};
+use super::args::{RenderArgs, Shading, ViewArgs};
 use super::progress::Bar;
 use super::say::{Say, spent};
 use anyhow::{Context, Result, bail};
 use pelage::StrandBuffer;
 use pelage::io::{read_curves, read_image, read_mesh, strands_through_vertices};
-use pelage::render::{Camera, Scene, Settings, render};
+use pelage::render::{Camera, Reflection, Scene, Settings, Shape, render};
 use pelage::strands::UpAxis;
 use pelage::surface::{ImageMap, Mesh, linear_from_srgb};
 use std::path::Path;
@@ -90,6 +90,15 @@ pub fn draw(
         height: view.size.1,
         samples: view.samples.unwrap_or(standard.samples),
         threads: (threads > 0).then_some(threads),
+        shape: if view.round {
+            Shape::Round
+        } else {
+            Shape::Ribbon
+        },
+        reflection: match view.shading {
+            Shading::Marschner => Reflection::Marschner,
+            Shading::KajiyaKay => Reflection::KajiyaKay,
+        },
         ..standard
     };
     let mut camera = Camera::portrait(&scene, up, settings.aspect(), AZIMUTH, ELEVATION);

@@ -1,0 +1,189 @@
+//! The command as a user types it.
+
+mod groom;
+
+use groom::{Folder, fails, pelage};
+
+#[test]
+fn any_threads_and_ranges_give_the_same_numpy_arrays() {
+    let folder = Folder::with_ball();
+    let one = folder.arrays("one.npz", &["--count", "3000", "--threads", "1"]);
+    let two = folder.arrays("two.npz", &["--count", "3000", "--threads", "2"]);
+    assert!(folder.bytes("one.npz") == folder.bytes("two.npz"));
+    assert!(one == two);
+    let mut halves = folder.arrays("a.npz", &["--count", "3000", "--range", "0..1234"]);
+    halves.append(&folder.arrays("b.npz", &["--count", "3000", "--range", "1234.."]));
+    assert!(halves == one);
+}
+
+#[test]
+fn a_thousand_hairs_are_the_first_of_two_thousand() {
+    let folder = Folder::with_ball();
+    let few = folder.arrays("few.npz", &["--count", "1000"]);
+    let first = folder.arrays("many.npz", &["--count", "2000", "--range", "0..1000"]);
+    assert_eq!(few.hair_id, (0..1000).collect::<Vec<u64>>());
+    assert!(few == first);
+}
+
+#[test]
+fn every_format_is_sound_when_looked_into() {
+    let folder = Folder::with_ball();
+    for name in ["hair.usdc", "hair.usda", "hair.npz"] {
+        folder.generate(name, &["--count", "500"]);
+        let report = pelage(&["inspect", &folder.path(name)]);
+        assert!(report.contains("500"), "{report}");
+    }
+    folder.generate("hair.rib", &["--count", "500"]);
+    assert!(String::from_utf8_lossy(&folder.bytes("hair.rib")).contains("Curves \"cubic\""));
+    folder.generate("null", &["--count", "500"]);
+    assert!(!folder.exists("null"));
+}
+
+#[test]
+fn a_posed_surface_carries_its_hair_and_frames_are_samples() {
+    let folder = Folder::with_ball();
+    folder.pose("ball.0001.obj", 0.0);
+    folder.pose("ball.0002.obj", 3.0);
+    folder.add_to_recipe("[surface]", "posed = \"ball.####.obj\"");
+    let rest = folder.arrays("one.npz", &["--count", "50", "--frame", "1"]);
+    let moved = folder.arrays("two.npz", &["--count", "50", "--frame", "2"]);
+    for (p, q) in rest.points.iter().zip(&moved.points) {
+        assert!((p[0] + 3.0 - q[0]).abs() < 1e-5 && (p[1] - q[1]).abs() < 1e-5);
+    }
+    folder.generate("hair.usdc", &["--count", "50", "--frames", "1-2"]);
+    let last = pelage::io::read_curves(folder.path("hair.usdc").as_ref(), Some(2.0)).unwrap();
+    let last = pelage::io::strands_through_vertices(&last.sets[0]);
+    assert_eq!(last.points, moved.points);
+    let words = fails(&["generate", &folder.path("groom.toml"), "-o", "null"]);
+    assert!(words.contains("--frame"), "{words}");
+}
+
+#[test]
+fn a_pose_of_other_topology_is_refused_with_the_place() {
+    let folder = Folder::with_ball();
+    folder.write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.add_to_recipe("[surface]", "posed = \"other.obj\"");
+    let words = fails(&["generate", &folder.path("groom.toml"), "-o", "null"]);
+    assert!(
+        words.contains("other.obj: number of vertices is 3"),
+        "{words}"
+    );
+    assert!(words.contains("surface.posed"), "{words}");
+}
+
+#[test]
+fn without_uvs_a_recipe_without_maps_works_and_one_with_a_map_is_refused_by_name() {
+    let folder = Folder::new();
+    folder.write(
+        "t.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n",
+    );
+    folder.write(
+        "groom.toml",
+        "surface.mesh = 't.obj'\nguides.grow = { count = 5, length = 1 }\n",
+    );
+    folder.generate("hair.npz", &["--count", "100"]);
+    folder.copy_ball_map("density.png");
+    folder.write(
+        "groom.toml",
+        "surface.mesh = 't.obj'\nguides.grow = { length = 1 }\n\
+         [roots]\ndensity = { map = 'density.png' }\n",
+    );
+    let words = fails(&["generate", &folder.path("groom.toml"), "-o", "null"]);
+    assert!(
+        words.contains("roots.density") && words.contains("no UVs"),
+        "{words}"
+    );
+    assert!(words.contains("groom.toml:4"), "{words}");
+}
+
+#[test]
+fn guides_off_the_surface_are_listed_with_their_distances() {
+    let folder = Folder::new();
+    folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write(
+        "g.obj",
+        "v .2 .2 0\nv .2 .2 1\nv .2 .2 .5\nv .2 .2 2\nl 1 2\nl 3 4\n",
+    );
+    folder.write(
+        "groom.toml",
+        "surface.mesh = 't.obj'\nguides.curves = 'g.obj'\n",
+    );
+    let words = fails(&["generate", &folder.path("groom.toml"), "-o", "null"]);
+    assert!(words.contains("guide 1 by 0.5"), "{words}");
+}
+
+#[test]
+fn a_failed_run_leaves_the_old_file_whole() {
+    let folder = Folder::with_ball();
+    folder.write("hair.usdc", "old");
+    folder.write(
+        "groom.toml",
+        "surface.mesh = 'gone.obj'\nguides.grow = { length = 1 }\n",
+    );
+    fails(&[
+        "generate",
+        &folder.path("groom.toml"),
+        "-o",
+        &folder.path("hair.usdc"),
+    ]);
+    assert_eq!(folder.bytes("hair.usdc"), b"old");
+}
+
+#[test]
+fn mistakes_are_answered_in_words() {
+    let folder = Folder::with_ball();
+    let recipe = folder.path("groom.toml");
+    let words = fails(&["generate", &recipe, "-o", "hair.fbx"]);
+    assert!(words.contains(".usdc"), "{words}");
+    let words = fails(&[
+        "generate", &recipe, "-o", "null", "--count", "5", "--range", "0..9",
+    ]);
+    assert!(words.contains("there are only 5 hairs"), "{words}");
+    let words = fails(&["generate", "nowhere.toml", "-o", "null"]);
+    assert!(words.contains("nowhere.toml"), "{words}");
+    let words = fails(&["init", &folder.path("")]);
+    assert!(words.contains("--force"), "{words}");
+    let words = fails(&["inspect", &folder.path("")]);
+    assert!(words.contains("folder"), "{words}");
+    folder.add_to_recipe("[hair]", "cuont = 7");
+    let words = fails(&["generate", &recipe, "-o", "null"]);
+    assert!(
+        words.contains("hair.cuont") && words.contains("count"),
+        "{words}"
+    );
+}
+
+#[test]
+fn every_example_grows_sound_hair_and_shows_it() {
+    for name in ["ball", "head", "grass"] {
+        let folder = Folder::new();
+        pelage(&["init", &folder.path(name), "--example", name]);
+        let recipe = folder.path(&format!("{name}/groom.toml"));
+        let (hair, picture) = (folder.path("hair.usdc"), folder.path("hair.png"));
+        pelage(&[
+            "generate",
+            &recipe,
+            "-o",
+            &hair,
+            "--count",
+            "2000",
+            "--picture",
+            &picture,
+            "--size",
+            "64x36",
+            "--samples",
+            "2",
+        ]);
+        pelage(&["inspect", &hair]);
+        assert!(pelage::io::read_image(picture.as_ref()).is_ok());
+    }
+}
+
+#[test]
+fn the_pages_for_editors_shells_and_readers_are_there() {
+    assert!(pelage(&["schema"]).contains("json-schema.org"));
+    assert!(pelage(&["completions", "bash"]).contains("_pelage"));
+    assert!(pelage(&["man"]).contains(".TH pelage"));
+    assert!(pelage(&["generate", "--help"]).contains("Examples:"));
+}
