@@ -4,7 +4,7 @@
 /// text does; formats without them must not be handed any.
 pub(crate) fn push_f32(text: &mut Vec<u8>, value: f32) {
     if value.is_finite() {
-        let mut buffer = ryu::Buffer::new();
+        let mut buffer = zmij::Buffer::new();
         push_short(text, buffer.format_finite(value));
     } else {
         push_odd(text, f64::from(value));
@@ -14,7 +14,7 @@ pub(crate) fn push_f32(text: &mut Vec<u8>, value: f32) {
 /// Appends `value`; see [`push_f32`].
 pub(crate) fn push_f64(text: &mut Vec<u8>, value: f64) {
     if value.is_finite() {
-        let mut buffer = ryu::Buffer::new();
+        let mut buffer = zmij::Buffer::new();
         push_short(text, buffer.format_finite(value));
     } else {
         push_odd(text, value);

@@ -1,5 +1,7 @@
 //! USD files as Blender imports them (`pip install bpy`, set `PELAGE_PYTHON`).
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
+
 mod support;
 
 use pelage_io::WriteOptions;

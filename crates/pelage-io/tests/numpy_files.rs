@@ -1,8 +1,10 @@
 //! `.npz` files as NumPy reads them.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
+
 mod support;
 
-use pelage_io::WriteOptions;
+use pelage_io::{WriteOptions, sink_for};
 use pelage_strands::{StrandBuffer, StreamInfo};
 use std::path::Path;
 use support::{python, raised, strands, write, write_still};
@@ -87,6 +89,32 @@ fn attributes_that_strands_lack_are_left_out() {
     write_still(&path, &strands);
     check(
         "assert 'colors' not in f and 'group' not in f and 'triangle' in f",
+        &path,
+    );
+}
+
+#[test]
+#[ignore = "writes 4.4 GB; run after changes to the archive"]
+fn arrays_past_4_gb_are_found_by_their_64_bit_sizes() {
+    let folder = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).unwrap();
+    let path = folder.path().join("a.npz");
+    let chunk = StrandBuffer {
+        offsets: vec![0, 1_000_000],
+        points: (0..1_000_000).map(|i| [i as f32, 1.0, 2.0]).collect(),
+        ..Default::default()
+    };
+    let mut sink = sink_for(&path, &WriteOptions::default()).unwrap();
+    sink.begin(&StreamInfo::default()).unwrap();
+    sink.begin_frame(0).unwrap();
+    for _ in 0..365 {
+        sink.write(&chunk).unwrap();
+    }
+    sink.end_frame().unwrap();
+    sink.finish().unwrap();
+    check(
+        "p = f['points']\n\
+         assert p.shape == (365_000_000, 3) and p[-1].tolist() == [999_999, 1, 2]\n\
+         assert f['counts'].tolist() == [1_000_000] * 365\n",
         &path,
     );
 }

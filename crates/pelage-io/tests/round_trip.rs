@@ -1,5 +1,7 @@
 //! What is written is read back as the same strands.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
+
 mod support;
 
 use pelage_io::{WriteOptions, read_curves, strands_through_vertices};

@@ -1,5 +1,7 @@
 //! What every sink into a file must keep, whatever the format.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
+
 mod support;
 
 use pelage_io::{WriteOptions, sink_for};
