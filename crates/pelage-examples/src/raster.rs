@@ -150,8 +150,8 @@ pub fn image(width: u32, height: u32, channels: u32, texels: Vec<f32>) -> ImageM
 }
 
 /// Gives empty texels the mean of their painted neighbours.
-fn spread<const N: usize>(size: usize, texels: &mut Vec<Option<[f64; N]>>) {
-    let old = texels.clone();
+fn spread<const N: usize>(size: usize, texels: &mut [Option<[f64; N]>]) {
+    let old = texels.to_vec();
     for y in 0..size {
         for x in 0..size {
             if old[y * size + x].is_some() {
