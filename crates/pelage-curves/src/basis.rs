@@ -51,10 +51,10 @@ impl Basis {
             (Basis::Linear, Wrap::Periodic) => (vertices >= 3).then_some(vertices),
             (Basis::Linear, _) => (vertices >= 2).then(|| vertices - 1),
             (Basis::Bezier, Wrap::Periodic) => {
-                (vertices >= 3 && vertices % 3 == 0).then_some(vertices / 3)
+                (vertices >= 3 && vertices.is_multiple_of(3)).then_some(vertices / 3)
             }
             (Basis::Bezier, _) => {
-                (vertices >= 4 && (vertices - 4) % 3 == 0).then(|| (vertices - 4) / 3 + 1)
+                (vertices >= 4 && (vertices - 4).is_multiple_of(3)).then(|| (vertices - 4) / 3 + 1)
             }
             (_, Wrap::Periodic) => (vertices >= 3).then_some(vertices),
             (_, Wrap::Nonperiodic) => (vertices >= 4).then(|| vertices - 3),

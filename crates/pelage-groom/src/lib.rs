@@ -1,1 +1,38 @@
-//! Placeholder.
+//! From a `groom.toml` to strands: the recipe, the plan it compiles to, and the
+//! pipeline that runs it.
+//!
+//! ```text
+//! Recipe + files = Groom → Plan → capture (rest) → evaluate (pose) → Sink
+//! ```
+//!
+//! Everything that can fail does so while the [`Plan`] is made.
+
+mod capture;
+mod clock;
+pub mod color;
+mod error;
+mod evaluate;
+mod generate;
+mod groom;
+mod groups;
+mod grow;
+mod guide;
+mod guide_set;
+mod locator;
+mod maps;
+mod plan;
+pub mod random;
+pub mod recipe;
+pub mod stages;
+
+pub use capture::{Capture, Dropped};
+pub use clock::{Clock, Stage};
+pub use error::PlanError;
+pub use evaluate::Scratch;
+pub use generate::{GenerateError, Poses, Report, Request, generate};
+pub use groom::Groom;
+pub use groups::{Group, Groups};
+pub use guide::{FarGuide, Guide};
+pub use locator::{Locator, Near};
+pub use maps::{ColorField, Images, ScalarField};
+pub use plan::Plan;

@@ -30,9 +30,9 @@ impl Bounds {
     /// Widens the box to hold the ball of `radius` around `point`. A point with a
     /// NaN coordinate adds nothing on that axis.
     pub fn add(&mut self, point: [f32; 3], radius: f32) {
-        for k in 0..3 {
-            self.min[k] = self.min[k].min(point[k] - radius);
-            self.max[k] = self.max[k].max(point[k] + radius);
+        for (k, x) in point.into_iter().enumerate() {
+            self.min[k] = self.min[k].min(x - radius);
+            self.max[k] = self.max[k].max(x + radius);
         }
     }
 

@@ -10,6 +10,16 @@ pub enum Wrap {
     Clamp,
 }
 
+impl Wrap {
+    /// Column and row (from the top) of the texel that `uv` falls in, in an image of
+    /// `size` columns and rows.
+    pub fn texel(self, [u, v]: [f32; 2], [width, height]: [u32; 2]) -> [u32; 2] {
+        let x = (u as f64 * width as f64).floor();
+        let y = ((1.0 - v as f64) * height as f64).floor();
+        [wrapped(x, width, self), wrapped(y, height, self)]
+    }
+}
+
 /// Why pixels are no map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MapError {
@@ -130,5 +140,156 @@ impl ImageMap {
     pub fn texel(&self, x: u32, y: u32) -> &[f32] {
         let start = (y as usize * self.width as usize + x as usize) * self.channels as usize;
         &self.texels[start..start + self.channels as usize]
+    }
+
+    /// Bilinear value of `channel` at `(u, v)`, origin lower left: the first row of
+    /// the image is v = 1. Texel centres lie at half-integers. A channel the image
+    /// does not have reads its last one.
+    pub fn sample(&self, u: f32, v: f32, channel: u32, wrap: Wrap) -> f32 {
+        let channel = channel.min(self.channels - 1) as usize;
+        self.around(u, v, wrap)
+            .blend(|x, y| self.texel(x, y)[channel])
+    }
+
+    /// Bilinear colour at `(u, v)`: the first three channels, or the first alone as
+    /// grey where there are fewer than three.
+    pub fn sample_rgb(&self, u: f32, v: f32, wrap: Wrap) -> [f32; 3] {
+        let around = self.around(u, v, wrap);
+        std::array::from_fn(|k| {
+            let channel = if self.channels >= 3 { k } else { 0 };
+            around.blend(|x, y| self.texel(x, y)[channel])
+        })
+    }
+
+    /// The texel that `(u, v)` falls in, unfiltered: for maps whose colours are names.
+    pub fn nearest(&self, u: f32, v: f32, wrap: Wrap) -> &[f32] {
+        let [x, y] = wrap.texel([u, v], [self.width, self.height]);
+        self.texel(x, y)
+    }
+
+    /// A map with the same size whose texels are `f` of this one's.
+    pub fn map_texels(&self, f: impl Fn(f32) -> f32) -> Self {
+        Self {
+            texels: self.texels.iter().map(|&t| f(t)).collect(),
+            ..self.clone()
+        }
+    }
+
+    fn around(&self, u: f32, v: f32, wrap: Wrap) -> Around {
+        // f64: at u = 10 an f32 holds only a sixteenth of a texel of a large map.
+        let x = u as f64 * self.width as f64 - 0.5;
+        let y = (1.0 - v as f64) * self.height as f64 - 0.5;
+        let (x0, y0) = (x.floor(), y.floor());
+        Around {
+            columns: [x0, x0 + 1.0].map(|x| wrapped(x, self.width, wrap)),
+            rows: [y0, y0 + 1.0].map(|y| wrapped(y, self.height, wrap)),
+            across: (x - x0) as f32,
+            down: (y - y0) as f32,
+        }
+    }
+}
+
+/// The four texels around a place and how far it lies between them.
+struct Around {
+    columns: [u32; 2],
+    rows: [u32; 2],
+    across: f32,
+    down: f32,
+}
+
+impl Around {
+    /// Written as differences so that equal texels give that very value.
+    fn blend(&self, texel: impl Fn(u32, u32) -> f32) -> f32 {
+        let row = |y| {
+            let (a, b) = (texel(self.columns[0], y), texel(self.columns[1], y));
+            a + (b - a) * self.across
+        };
+        let (a, b) = (row(self.rows[0]), row(self.rows[1]));
+        a + (b - a) * self.down
+    }
+}
+
+/// Column or row `x` brought into `0..size`. Anything that is no number gives 0.
+fn wrapped(x: f64, size: u32, wrap: Wrap) -> u32 {
+    match wrap {
+        Wrap::Repeat => (x.rem_euclid(size as f64) as u32).min(size - 1),
+        Wrap::Clamp => (x.max(0.0) as u32).min(size - 1),
+    }
+}
+
+/// Linear value of an sRGB code in 0..=1 (IEC 61966-2-1); values outside are kept
+/// on the curve's continuation. `libm`, so the same on every machine.
+///
+/// ```
+/// assert!((pelage_surface::linear_from_srgb(0.5) - 0.21404).abs() < 1e-5);
+/// ```
+pub fn linear_from_srgb(code: f32) -> f32 {
+    if code <= 0.04045 {
+        code / 12.92
+    } else {
+        libm::powf((code + 0.055) / 1.055, 2.4)
+    }
+}
+
+/// sRGB code of a linear value; the inverse of [`linear_from_srgb`].
+pub fn srgb_from_linear(linear: f32) -> f32 {
+    if linear <= 0.003_130_8 {
+        linear * 12.92
+    } else {
+        1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn four() -> ImageMap {
+        // Top row 0 1, bottom row 2 3.
+        ImageMap::new(2, 2, 1, vec![0.0, 1.0, 2.0, 3.0], false).unwrap()
+    }
+
+    #[test]
+    fn the_first_row_is_at_the_top() {
+        assert_eq!(four().sample(0.25, 0.75, 0, Wrap::Clamp), 0.0);
+        assert_eq!(four().sample(0.75, 0.25, 0, Wrap::Clamp), 3.0);
+        assert_eq!(four().nearest(0.9, 0.9, Wrap::Repeat), [1.0]);
+    }
+
+    #[test]
+    fn the_middle_is_the_mean_and_repeating_blends_across_the_border() {
+        assert_eq!(four().sample(0.5, 0.5, 0, Wrap::Clamp), 1.5);
+        assert_eq!(four().sample(0.0, 0.75, 0, Wrap::Repeat), 0.5);
+        assert_eq!(four().sample(0.0, 0.75, 0, Wrap::Clamp), 0.0);
+        assert_eq!(
+            four().sample(5.25, -2.25, 0, Wrap::Repeat),
+            four().sample(0.25, 0.75, 0, Wrap::Repeat)
+        );
+    }
+
+    #[test]
+    fn coordinates_that_are_no_numbers_do_not_panic() {
+        for bad in [f32::NAN, f32::INFINITY, -1e30] {
+            four().sample(bad, bad, 0, Wrap::Repeat);
+            four().sample(bad, bad, 0, Wrap::Clamp);
+            four().nearest(bad, bad, Wrap::Repeat);
+        }
+    }
+
+    #[test]
+    fn a_texel_that_is_no_number_is_named() {
+        let error = ImageMap::new(2, 1, 3, vec![0.0, 0.0, 0.0, 0.0, f32::NAN, 0.0], false);
+        assert_eq!(
+            error.unwrap_err().to_string(),
+            "texel (column 1, row 0 from the top), channel 1, is NaN; maps must be finite"
+        );
+    }
+
+    #[test]
+    fn srgb_and_back_is_the_identity() {
+        for i in 0..=255 {
+            let code = i as f32 / 255.0;
+            assert!((srgb_from_linear(linear_from_srgb(code)) - code).abs() < 1e-5);
+        }
     }
 }

@@ -1,7 +1,24 @@
-//! Surfaces that grow hair: triangle meshes at rest and posed, and image maps.
+//! Surfaces that grow hair: triangle meshes at rest and posed, image maps, places
+//! on a surface, and roots sampled by density.
 
+mod closest;
+mod distribution;
+mod frame;
+mod hilbert;
 mod image_map;
 mod mesh;
+mod normals;
+mod sampler;
+mod sequence;
+mod subdivide;
+mod tangents;
+mod triangulate;
 
-pub use image_map::{ImageMap, MapError, Wrap};
+pub use closest::ClosestPoint;
+pub use distribution::{Distribution, Pick};
+pub use frame::{RootFrame, SurfacePoint};
+pub use image_map::{ImageMap, MapError, Wrap, linear_from_srgb, srgb_from_linear};
 pub use mesh::{Mesh, MeshError, PolygonMesh};
+pub use sampler::{RootSampler, VoxelRoots};
+pub use sequence::{RootSequence, radical_inverse};
+pub use subdivide::Density;

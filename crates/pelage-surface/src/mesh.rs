@@ -1,5 +1,9 @@
 //! Polygons as files give them, and triangles as the generator needs them.
 
+use crate::triangulate::triangulate;
+use crate::{normals, tangents};
+use pelage_curves::{Vec2, Vec3};
+
 /// A polygon mesh as read from a file: nothing checked, nothing computed.
 ///
 /// Corners are listed face after face; `corner_*` arrays have one entry a corner.
@@ -34,14 +38,12 @@ pub enum MeshError {
         vertices: usize,
     },
     /// A position, normal or texture coordinate that is NaN or infinite.
-    #[error("{array} {index} is {value}; it must be finite")]
+    #[error("{array} {index} is NaN or infinite")]
     NotFinite {
         /// Which array.
         array: &'static str,
         /// Entry of the array.
         index: usize,
-        /// What was found, as text.
-        value: String,
     },
     /// An array does not match the faces.
     #[error("{array} has {found} entries, not {expected}")]
@@ -52,6 +54,19 @@ pub enum MeshError {
         found: usize,
         /// Entries expected.
         expected: usize,
+    },
+    /// A pose does not have the rest mesh's faces.
+    #[error("{what}{} is {posed}, but {rest} in the rest mesh; topology must be the same",
+        .index.map(|i| format!(" {i}")).unwrap_or_default())]
+    Topology {
+        /// What differs.
+        what: &'static str,
+        /// Which one, where there are several.
+        index: Option<usize>,
+        /// Value at rest.
+        rest: usize,
+        /// Value in the pose.
+        posed: usize,
     },
     /// More triangles or vertices than 32-bit indices can tell apart.
     #[error("the mesh has {found} {what}; at most {limit} are supported")]
@@ -65,17 +80,329 @@ pub enum MeshError {
     },
 }
 
-/// A triangle mesh ready to grow hair: see [`Mesh::new`].
+/// A triangle mesh ready to grow hair.
+///
+/// Triangles keep the order of the faces they come from, and a polygon's triangles
+/// follow each other. The index of a triangle here is the `triangle` of a root.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
+    positions: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    /// Which corner of the polygons each triangle corner is.
+    corners: Vec<[u32; 3]>,
+    normals: Vec<[Vec3; 3]>,
+    uvs: Vec<[Vec2; 3]>,
+    tangents: Vec<[Vec3; 3]>,
+    degenerate: usize,
+    face_sizes: Vec<u32>,
+    face_vertices: Vec<u32>,
+}
+
+impl Mesh {
+    /// Checks `polygons`, triangulates them (concave ones too), computes normals
+    /// where the file has none (angle-weighted over the faces that share a vertex)
+    /// and tangents (along +u; without UVs along the first edge of each triangle).
+    ///
+    /// Faces of fewer than three corners are left out.
+    pub fn new(polygons: PolygonMesh) -> Result<Self, MeshError> {
+        check(&polygons)?;
+        let positions: Vec<Vec3> = bytemuck::cast_slice(&polygons.positions).to_vec();
+        let corners = triangulate(&positions, &polygons.face_sizes, &polygons.corner_vertices);
+        if corners.is_empty() {
+            return Err(MeshError::Empty);
+        }
+        let uvs = pick(&corners, bytemuck::cast_slice(&polygons.corner_uvs));
+        let mut mesh = Self {
+            triangles: pick(&corners, &polygons.corner_vertices),
+            positions,
+            normals: Vec::new(),
+            tangents: Vec::new(),
+            degenerate: 0,
+            corners,
+            uvs,
+            face_sizes: polygons.face_sizes,
+            face_vertices: polygons.corner_vertices,
+        };
+        mesh.degenerate = (0..mesh.triangles.len())
+            .filter(|&t| mesh.area(t) <= 0.0)
+            .count();
+        mesh.finish(bytemuck::cast_slice(&polygons.corner_normals));
+        Ok(mesh)
+    }
+
+    /// The same surface in another pose: its positions (and normals, where both
+    /// this mesh and the pose have them from a file) with this mesh's triangles and
+    /// UVs. Fails where the topology differs, and says where first.
+    ///
+    /// `keep_file_normals` tells whether normals of `pose` may be used; set it only
+    /// where the rest mesh uses its file's normals too, so that a rigid motion
+    /// moves every frame rigidly.
+    pub fn posed(&self, pose: &PolygonMesh, keep_file_normals: bool) -> Result<Self, MeshError> {
+        check(pose)?;
+        self.check_topology(pose)?;
+        let mut mesh = Self {
+            positions: bytemuck::cast_slice(&pose.positions).to_vec(),
+            ..self.clone()
+        };
+        let normals: &[Vec3] = bytemuck::cast_slice(&pose.corner_normals);
+        mesh.finish(if keep_file_normals { normals } else { &[] });
+        Ok(mesh)
+    }
+
+    fn check_topology(&self, pose: &PolygonMesh) -> Result<(), MeshError> {
+        let differ = |what, index, rest: usize, posed: usize| {
+            Err(MeshError::Topology {
+                what,
+                index,
+                rest,
+                posed,
+            })
+        };
+        if self.positions.len() != pose.positions.len() {
+            return differ(
+                "number of vertices",
+                None,
+                self.positions.len(),
+                pose.positions.len(),
+            );
+        }
+        if self.face_sizes.len() != pose.face_sizes.len() {
+            return differ(
+                "number of faces",
+                None,
+                self.face_sizes.len(),
+                pose.face_sizes.len(),
+            );
+        }
+        let sizes = self.face_sizes.iter().zip(&pose.face_sizes);
+        if let Some((face, (a, b))) = sizes.enumerate().find(|(_, (a, b))| a != b) {
+            return differ(
+                "number of corners of face",
+                Some(face),
+                *a as usize,
+                *b as usize,
+            );
+        }
+        let vertices = self.face_vertices.iter().zip(&pose.corner_vertices);
+        if let Some((corner, (a, b))) = vertices.enumerate().find(|(_, (a, b))| a != b) {
+            return differ(
+                "vertex of face corner",
+                Some(corner),
+                *a as usize,
+                *b as usize,
+            );
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self, corner_normals: &[Vec3]) {
+        self.normals = if corner_normals.is_empty() {
+            normals::angle_weighted(&self.positions, &self.triangles)
+        } else {
+            let file = pick(&self.corners, corner_normals);
+            normals::repaired(file, &self.positions, &self.triangles)
+        };
+        self.tangents =
+            tangents::corner_tangents(&self.positions, &self.triangles, &self.uvs, &self.normals);
+    }
+
     /// Vertex positions.
-    pub positions: Vec<[f32; 3]>,
-    /// Vertices of each triangle, in the order of the faces they came from.
-    pub triangles: Vec<[u32; 3]>,
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    /// Vertices of each triangle.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
     /// Unit normal at each corner of each triangle.
-    pub normals: Vec<[[f32; 3]; 3]>,
-    /// Texture coordinates at each corner of each triangle; empty for none.
-    pub uvs: Vec<[[f32; 2]; 3]>,
-    /// Unit tangent at each corner of each triangle, along +u where there are UVs.
-    pub tangents: Vec<[[f32; 3]; 3]>,
+    pub fn normals(&self) -> &[[Vec3; 3]] {
+        &self.normals
+    }
+
+    /// Texture coordinates at each corner of each triangle; empty without UVs.
+    pub fn uvs(&self) -> &[[Vec2; 3]] {
+        &self.uvs
+    }
+
+    /// Unit tangent at each corner of each triangle.
+    pub fn tangents(&self) -> &[[Vec3; 3]] {
+        &self.tangents
+    }
+
+    /// Whether the mesh has texture coordinates.
+    pub fn has_uvs(&self) -> bool {
+        !self.uvs.is_empty()
+    }
+
+    /// Triangles without area; they grow no hair.
+    pub fn degenerate_triangles(&self) -> usize {
+        self.degenerate
+    }
+
+    /// Corner positions of triangle `triangle`.
+    pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
+        self.triangles[triangle].map(|v| self.positions[v as usize])
+    }
+
+    /// Area of triangle `triangle`, computed in f64.
+    pub fn area(&self, triangle: usize) -> f64 {
+        let [a, b, c] = self.corners(triangle).map(|p| p.as_dvec3());
+        (b - a).cross(c - a).length() / 2.0
+    }
+
+    /// Smallest and largest coordinates of the vertices that triangles use.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let used = self
+            .triangles
+            .iter()
+            .flatten()
+            .map(|&v| self.positions[v as usize]);
+        used.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), p| {
+            (lo.min(p), hi.max(p))
+        })
+    }
+}
+
+/// The entries of `array` (one a polygon corner) for each triangle corner.
+fn pick<T: Copy>(corners: &[[u32; 3]], array: &[T]) -> Vec<[T; 3]> {
+    if array.is_empty() {
+        return Vec::new();
+    }
+    corners
+        .iter()
+        .map(|t| t.map(|c| array[c as usize]))
+        .collect()
+}
+
+fn check(mesh: &PolygonMesh) -> Result<(), MeshError> {
+    let corners: usize = mesh.face_sizes.iter().map(|&n| n as usize).sum();
+    let counts = [
+        ("corner_vertices", mesh.corner_vertices.len(), corners),
+        ("corner_uvs", mesh.corner_uvs.len(), corners),
+        ("corner_normals", mesh.corner_normals.len(), corners),
+    ];
+    for (array, found, expected) in counts {
+        let optional = array != "corner_vertices";
+        if found != expected && !(optional && found == 0) {
+            return Err(MeshError::WrongCount {
+                array,
+                found,
+                expected,
+            });
+        }
+    }
+    let limit = u32::MAX as usize;
+    if corners > limit {
+        return Err(MeshError::TooLarge {
+            what: "face corners",
+            found: corners,
+            limit,
+        });
+    }
+    let vertices = mesh.positions.len();
+    let mut corner = 0;
+    for (face, &size) in mesh.face_sizes.iter().enumerate() {
+        for &vertex in &mesh.corner_vertices[corner..corner + size as usize] {
+            if vertex as usize >= vertices {
+                return Err(MeshError::NoSuchVertex {
+                    face,
+                    vertex,
+                    vertices,
+                });
+            }
+        }
+        corner += size as usize;
+    }
+    finite("vertex", mesh.positions.iter().map(|p| &p[..]))?;
+    finite("texture coordinate", mesh.corner_uvs.iter().map(|p| &p[..]))?;
+    finite("normal", mesh.corner_normals.iter().map(|p| &p[..]))
+}
+
+fn finite<'a>(
+    array: &'static str,
+    mut values: impl Iterator<Item = &'a [f32]>,
+) -> Result<(), MeshError> {
+    match values.position(|v| v.iter().any(|x| !x.is_finite())) {
+        None => Ok(()),
+        Some(index) => Err(MeshError::NotFinite { array, index }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> PolygonMesh {
+        PolygonMesh {
+            positions: vec![
+                [0.0, 0.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [1.0, 1.0, 0.0],
+                [0.0, 1.0, 0.0],
+            ],
+            face_sizes: vec![4],
+            corner_vertices: vec![0, 1, 2, 3],
+            ..Default::default()
+        }
+    }
+
+    #[test]
+    fn a_square_becomes_two_triangles_with_one_normal() {
+        let mesh = Mesh::new(square()).unwrap();
+        assert_eq!(mesh.triangles().len(), 2);
+        assert!(
+            mesh.normals()
+                .iter()
+                .flatten()
+                .all(|n| n.distance(Vec3::Z) < 1e-6)
+        );
+        assert!((mesh.area(0) + mesh.area(1) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_concave_polygon_keeps_its_area() {
+        // An arrow head: corner 3 is reflex.
+        let mesh = Mesh::new(PolygonMesh {
+            positions: vec![[0.0; 3], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [1.5, 0.5, 0.0]],
+            face_sizes: vec![4],
+            corner_vertices: vec![0, 1, 2, 3],
+            ..Default::default()
+        })
+        .unwrap();
+        let area: f64 = (0..mesh.triangles().len()).map(|t| mesh.area(t)).sum();
+        assert!((area - 1.0).abs() < 1e-6, "{area}");
+    }
+
+    #[test]
+    fn a_pose_of_other_topology_is_refused_with_the_place() {
+        let mesh = Mesh::new(square()).unwrap();
+        let mut pose = square();
+        pose.corner_vertices[2] = 1;
+        let error = mesh.posed(&pose, false).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "vertex of face corner 2 is 1, but 2 in the rest mesh; topology must be the same"
+        );
+    }
+
+    #[test]
+    fn bad_polygons_are_refused() {
+        let mut mesh = square();
+        mesh.corner_vertices[1] = 9;
+        assert!(matches!(
+            Mesh::new(mesh),
+            Err(MeshError::NoSuchVertex { face: 0, .. })
+        ));
+        let mut mesh = square();
+        mesh.positions[3][1] = f32::NAN;
+        assert!(matches!(
+            Mesh::new(mesh),
+            Err(MeshError::NotFinite { index: 3, .. })
+        ));
+        let mut mesh = square();
+        mesh.face_sizes = vec![2, 2];
+        assert_eq!(Mesh::new(mesh).unwrap_err(), MeshError::Empty);
+    }
 }

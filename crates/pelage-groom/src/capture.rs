@@ -1,0 +1,162 @@
+//! What a chunk of hairs takes from the rest pose, once for all frames.
+//!
+//! Depends on the plan and the hairs' indices alone (architecture.md, laws 1 and 4).
+
+use crate::clock::{Clock, Stage};
+use crate::color::ColorMix;
+use crate::locator::Near;
+use crate::plan::Plan;
+use crate::recipe::Method;
+use crate::stages::look::Look;
+use crate::stages::roots::{Root, root};
+use crate::stages::scale;
+use crate::stages::weights::{Share, inverse_distance, turn};
+
+/// Hairs that were left out, and why.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dropped {
+    /// Their group has no guide.
+    pub without_guides: u64,
+    /// They have no length: the scale, or every guide they follow, is 0.
+    pub without_length: u64,
+}
+
+impl Dropped {
+    /// Adds the counts of another chunk.
+    pub fn add(&mut self, other: &Dropped) {
+        self.without_guides += other.without_guides;
+        self.without_length += other.without_length;
+    }
+
+    /// All of them.
+    pub fn total(&self) -> u64 {
+        self.without_guides + self.without_length
+    }
+}
+
+/// The rest-pose part of a chunk of hairs, as arrays. Reused between chunks.
+#[derive(Clone, Debug, Default)]
+pub struct Capture {
+    pub(crate) roots: Vec<Root>,
+    pub(crate) scale: Vec<f32>,
+    /// Where each hair's shares start; one more entry than hairs.
+    pub(crate) share_starts: Vec<u32>,
+    pub(crate) shares: Vec<Share>,
+    pub(crate) looks: Vec<Look>,
+    dropped: Dropped,
+    near: Vec<Near>,
+    weights: Vec<f32>,
+}
+
+impl Capture {
+    /// Number of hairs kept.
+    pub fn len(&self) -> usize {
+        self.roots.len()
+    }
+
+    /// Whether no hair was kept.
+    pub fn is_empty(&self) -> bool {
+        self.roots.is_empty()
+    }
+
+    /// Hairs left out, and why.
+    pub fn dropped(&self) -> Dropped {
+        self.dropped
+    }
+}
+
+impl Plan {
+    /// Captures `hairs` (indices, in the order wanted) into `capture`, which is
+    /// emptied first.
+    pub fn capture(
+        &self,
+        hairs: impl Iterator<Item = u64>,
+        capture: &mut Capture,
+        clock: &mut Clock,
+    ) {
+        let started = clock.start();
+        capture.roots.clear();
+        capture.dropped = Dropped::default();
+        if let Some(sampler) = &self.sampler {
+            capture
+                .roots
+                .extend(hairs.map(|h| root(h, sampler, &self.rest, &self.groups)));
+        }
+        let started = clock.stop(Stage::Roots, started);
+        self.weigh(capture);
+        let started = clock.stop(Stage::Weights, started);
+        capture.looks.clear();
+        capture
+            .looks
+            .extend(capture.roots.iter().map(|root| self.look(root)));
+        clock.stop(Stage::Maps, started);
+    }
+
+    /// Finds guides, weights and scale, and drops hairs that have no length.
+    fn weigh(&self, capture: &mut Capture) {
+        capture.scale.clear();
+        capture.shares.clear();
+        capture.share_starts.clear();
+        capture.share_starts.push(0);
+        let mut kept = 0;
+        for i in 0..capture.roots.len() {
+            let root = capture.roots[i];
+            let f = &self.fields;
+            let factor = scale::factor(&f.scale, &f.scale_random, root.uv, self.seed, root.hair);
+            let Some(guides) = self
+                .guides
+                .get(root.group as usize)
+                .filter(|g| !g.is_empty())
+            else {
+                capture.dropped.without_guides += 1;
+                continue;
+            };
+            guides.locator.query(root.rest, &mut capture.near);
+            match self.method {
+                Method::Nearest => {
+                    capture.weights.clear();
+                    capture.weights.push(1.0);
+                }
+                _ => inverse_distance(&capture.near, self.wanted, &mut capture.weights),
+            }
+            let frame = self.rest.frame(&root.place);
+            let first = capture.shares.len();
+            let mut length = 0.0;
+            for (near, &weight) in capture.near.iter().zip(&capture.weights) {
+                if weight > 0.0 {
+                    let (c, s) = turn(&guides.frames[near.guide as usize], &frame);
+                    let (cosine, sine) = (weight * c, weight * s);
+                    capture.shares.push(Share {
+                        guide: near.guide,
+                        weight,
+                        cosine,
+                        sine,
+                    });
+                    length += weight * guides.lengths[near.guide as usize];
+                }
+            }
+            // A NaN has no length either.
+            let has_length = length * factor > 0.0;
+            if !has_length {
+                capture.shares.truncate(first);
+                capture.dropped.without_length += 1;
+                continue;
+            }
+            capture.roots[kept] = root;
+            kept += 1;
+            capture.scale.push(factor);
+            capture.share_starts.push(capture.shares.len() as u32);
+        }
+        capture.roots.truncate(kept);
+    }
+
+    fn look(&self, root: &Root) -> Look {
+        let f = &self.fields;
+        let [from, to] = [0, 1].map(|k| f.color[k].at(root.uv));
+        Look {
+            color: ColorMix::new(f.color_space, from, to),
+            opacity: [0, 1].map(|k| f.opacity[k].at(root.uv).clamp(0.0, 1.0)),
+            width: [0, 1].map(|k| f.width[k].at(root.uv).max(0.0)),
+        }
+    }
+}

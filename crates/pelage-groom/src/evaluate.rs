@@ -1,0 +1,127 @@
+//! From a capture and a pose to strands.
+//!
+//! Total: nothing here can fail. Runs stage by stage over the chunk, so that each
+//! stage's arrays stay in cache; the only memory is the chunk and a reused scratch.
+
+use crate::capture::Capture;
+use crate::clock::{Clock, Stage};
+use crate::plan::Plan;
+use crate::stages::{frames, interpolate, look, scale, world};
+use pelage_curves::Vec3;
+use pelage_strands::{StrandBuffer, StrandMeta};
+use pelage_surface::{Mesh, RootFrame};
+
+/// Arrays that are only used while a chunk is evaluated.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    local: Vec<Vec3>,
+    frames: Vec<RootFrame>,
+    tangents: Vec<Vec3>,
+}
+
+impl Plan {
+    /// Writes the strands of `capture` on `pose` into `out`, which is emptied first.
+    /// `pose` has the topology of the rest mesh (see [`Mesh::posed`]); `None` is the
+    /// rest pose itself.
+    pub fn evaluate(
+        &self,
+        capture: &Capture,
+        pose: Option<&Mesh>,
+        scratch: &mut Scratch,
+        out: &mut StrandBuffer,
+        clock: &mut Clock,
+    ) {
+        let started = clock.start();
+        self.lay_out(capture, out);
+        self.interpolate(capture, scratch, out);
+        let started = clock.stop(Stage::Interpolate, started);
+        self.color(capture, out);
+        let started = clock.stop(Stage::Look, started);
+        self.to_world(capture, pose.unwrap_or(&self.rest), scratch, out);
+        let started = clock.stop(Stage::World, started);
+        if self.normals {
+            self.frame(scratch, out);
+        }
+        clock.stop(Stage::Frames, started);
+    }
+
+    /// Counts, then prefix sums: every array of `out` gets its length here.
+    fn lay_out(&self, capture: &Capture, out: &mut StrandBuffer) {
+        out.clear();
+        let mut vertices = 0;
+        for root in &capture.roots {
+            vertices += self.guides[root.group as usize].segments as usize + 1;
+            out.push_meta(&StrandMeta {
+                hair_id: root.hair,
+                root_uv: root.uv.to_array(),
+                group: root.group,
+                triangle: root.place.triangle,
+                barycentric: root.place.barycentric,
+                root_rest: root.rest.to_array(),
+                ..StrandMeta::default()
+            });
+            // `push_meta` closes a strand at the points present; they come below.
+            if let Some(end) = out.offsets.last_mut() {
+                *end = vertices as u32;
+            }
+        }
+        out.points.resize(vertices, [0.0; 3]);
+        out.widths.resize(vertices, 0.0);
+        out.colors.resize(vertices, [0.0; 3]);
+        out.opacities.resize(vertices, 0.0);
+        if self.normals {
+            out.normals.resize(vertices, [0.0; 3]);
+        }
+    }
+
+    fn interpolate(&self, capture: &Capture, scratch: &mut Scratch, out: &StrandBuffer) {
+        scratch.local.resize(out.points.len(), Vec3::ZERO);
+        for (i, root) in capture.roots.iter().enumerate() {
+            let range = capture.share_starts[i] as usize..capture.share_starts[i + 1] as usize;
+            let hair = &mut scratch.local[out.vertices(i)];
+            let guides = &self.guides[root.group as usize].vertices;
+            interpolate::interpolate(guides, &capture.shares[range], hair);
+            scale::scale(capture.scale[i], hair);
+        }
+    }
+
+    fn color(&self, capture: &Capture, out: &mut StrandBuffer) {
+        for (i, one) in capture.looks.iter().enumerate() {
+            let range = out.vertices(i);
+            look::along(
+                one,
+                &mut out.colors[range.clone()],
+                &mut out.opacities[range.clone()],
+                &mut out.widths[range],
+            );
+        }
+    }
+
+    fn to_world(
+        &self,
+        capture: &Capture,
+        pose: &Mesh,
+        scratch: &mut Scratch,
+        out: &mut StrandBuffer,
+    ) {
+        scratch.frames.clear();
+        scratch
+            .frames
+            .extend(capture.roots.iter().map(|root| pose.frame(&root.place)));
+        for (i, frame) in scratch.frames.iter().enumerate() {
+            let range = out.vertices(i);
+            let points = bytemuck::cast_slice_mut(&mut out.points[range.clone()]);
+            world::to_world(frame, &scratch.local[range], points);
+        }
+    }
+
+    fn frame(&self, scratch: &mut Scratch, out: &mut StrandBuffer) {
+        scratch.tangents.resize(out.points.len(), Vec3::ZERO);
+        for (i, root) in scratch.frames.iter().enumerate() {
+            let range = out.vertices(i);
+            let normals = bytemuck::cast_slice_mut(&mut out.normals[range.clone()]);
+            let points = bytemuck::cast_slice(&out.points[range.clone()]);
+            frames::normals(root, points, &mut scratch.tangents[range], normals);
+        }
+    }
+}

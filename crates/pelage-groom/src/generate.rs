@@ -1,0 +1,270 @@
+//! Running a plan: chunks made by several threads, handed to a sink in order.
+//!
+//! Memory is the plan, a fixed number of chunks and their scratch, whatever the number
+//! of hairs. The threads draw chunk numbers in order and only when they hold an empty
+//! buffer, so the chunk that the sink waits for always has one and nothing can lock up.
+
+use crate::capture::{Capture, Dropped};
+use crate::clock::{Clock, Stage};
+use crate::evaluate::Scratch;
+use crate::plan::Plan;
+use pelage_strands::{Sink, SinkError, StrandBuffer, StreamInfo};
+use pelage_surface::Mesh;
+use std::collections::BTreeMap;
+use std::error::Error;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, mpsc};
+
+/// Hairs in a chunk: its arrays (some 300 KB at six vertices a hair) stay in a core's
+/// second-level cache. Fewer cost more hand-overs, more fall out of the cache.
+const CHUNK: u64 = 1024;
+
+/// What to generate.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The hairs, by index.
+    pub hairs: Range<u64>,
+    /// Threads to use; at least one is.
+    pub threads: usize,
+    /// What the sink is told before the first strand.
+    pub info: StreamInfo,
+}
+
+/// Gives the surface of frame number `index` (0 for a still); `None` is the rest pose.
+pub type Poses<'a> =
+    dyn FnMut(usize) -> Result<Option<Arc<Mesh>>, Box<dyn Error + Send + Sync>> + 'a;
+
+/// Why a run stopped.
+#[derive(Debug, thiserror::Error)]
+pub enum GenerateError {
+    /// The sink would not take the strands.
+    #[error(transparent)]
+    Sink(#[from] SinkError),
+    /// The surface of a frame could not be had.
+    #[error("frame {frame}: {error}")]
+    Pose {
+        /// The frame, as in [`StreamInfo::frames`].
+        frame: f64,
+        /// Why.
+        error: Box<dyn Error + Send + Sync>,
+    },
+    /// The callback asked to stop.
+    #[error("stopped")]
+    Stopped,
+}
+
+/// What a run amounted to.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// Strands written, in each frame.
+    pub strands: u64,
+    /// Vertices written, in each frame.
+    pub vertices: u64,
+    /// Hairs left out, and why.
+    pub dropped: Dropped,
+    /// Time spent by stage, summed over threads and frames.
+    pub clock: Clock,
+}
+
+/// Generates the hairs of `request` into `sink`, frame after frame.
+///
+/// `progress` is called now and then with the number of hairs done, over all frames;
+/// it returns whether to go on.
+pub fn generate(
+    plan: &Plan,
+    request: &Request,
+    poses: &mut Poses,
+    sink: &mut dyn Sink,
+    progress: &mut dyn FnMut(u64) -> bool,
+) -> Result<Report, GenerateError> {
+    let mut report = Report::default();
+    sink.begin(&request.info)?;
+    let frames = request.info.frames.len().max(1);
+    let hairs = if plan.count() == 0 {
+        0..0
+    } else {
+        request.hairs.clone()
+    };
+    let total = hairs.end.saturating_sub(hairs.start);
+    for index in 0..frames {
+        let frame = request.info.frames.get(index).copied().unwrap_or(0.0);
+        let pose = poses(index).map_err(|error| GenerateError::Pose { frame, error })?;
+        sink.begin_frame(index)?;
+        let mut run = Run {
+            plan,
+            hairs: hairs.clone(),
+            pose: pose.as_deref(),
+            before: total * index as u64,
+            report: Report {
+                clock: std::mem::take(&mut report.clock),
+                ..Report::default()
+            },
+        };
+        if request.threads <= 1 {
+            run.alone(sink, progress)?;
+        } else {
+            run.together(request.threads, sink, progress)?;
+        }
+        report = run.report;
+        sink.end_frame()?;
+    }
+    let started = report.clock.start();
+    sink.finish()?;
+    report.clock.stop(Stage::Sink, started);
+    Ok(report)
+}
+
+/// A chunk of strands with what was noted while it was made.
+#[derive(Default)]
+struct Chunk {
+    strands: StrandBuffer,
+    dropped: Dropped,
+    clock: Clock,
+}
+
+#[derive(Default)]
+struct Worker {
+    capture: Capture,
+    scratch: Scratch,
+}
+
+impl Worker {
+    fn make(&mut self, plan: &Plan, hairs: Range<u64>, pose: Option<&Mesh>, chunk: &mut Chunk) {
+        chunk.clock = Clock::default();
+        plan.capture(hairs, &mut self.capture, &mut chunk.clock);
+        chunk.dropped = self.capture.dropped();
+        let strands = &mut chunk.strands;
+        plan.evaluate(
+            &self.capture,
+            pose,
+            &mut self.scratch,
+            strands,
+            &mut chunk.clock,
+        );
+    }
+}
+
+struct Run<'a> {
+    plan: &'a Plan,
+    hairs: Range<u64>,
+    pose: Option<&'a Mesh>,
+    /// Hairs of the frames before.
+    before: u64,
+    report: Report,
+}
+
+impl Run<'_> {
+    fn chunks(&self) -> u64 {
+        self.hairs
+            .end
+            .saturating_sub(self.hairs.start)
+            .div_ceil(CHUNK)
+    }
+
+    fn hairs_of(hairs: &Range<u64>, chunk: u64) -> Range<u64> {
+        let start = hairs.start + chunk * CHUNK;
+        start..(start + CHUNK).min(hairs.end)
+    }
+
+    fn alone(
+        &mut self,
+        sink: &mut dyn Sink,
+        progress: &mut dyn FnMut(u64) -> bool,
+    ) -> Result<(), GenerateError> {
+        let (mut worker, mut chunk) = (Worker::default(), Chunk::default());
+        for number in 0..self.chunks() {
+            let hairs = Self::hairs_of(&self.hairs, number);
+            worker.make(self.plan, hairs, self.pose, &mut chunk);
+            self.take(number, &chunk, sink, progress)?;
+        }
+        Ok(())
+    }
+
+    fn together(
+        &mut self,
+        threads: usize,
+        sink: &mut dyn Sink,
+        progress: &mut dyn FnMut(u64) -> bool,
+    ) -> Result<(), GenerateError> {
+        let (plan, pose, hairs, chunks) = (self.plan, self.pose, self.hairs.clone(), self.chunks());
+        let next = AtomicU64::new(0);
+        let (give_empty, take_empty) = mpsc::channel::<Chunk>();
+        let (give_full, take_full) = mpsc::channel::<(u64, Chunk)>();
+        // One chunk a thread in the making and one waiting for the sink.
+        for _ in 0..2 * threads {
+            // The receiver lives until the end of this function.
+            let _ = give_empty.send(Chunk::default());
+        }
+        let take_empty = Mutex::new(take_empty);
+        std::thread::scope(|scope| {
+            for _ in 0..threads {
+                let give_full = give_full.clone();
+                let (next, take_empty, hairs) = (&next, &take_empty, &hairs);
+                scope.spawn(move || {
+                    let mut worker = Worker::default();
+                    loop {
+                        // A poisoned lock means that another thread panicked; stop too.
+                        let Ok(waiting) = take_empty.lock() else {
+                            return;
+                        };
+                        let Ok(mut chunk) = waiting.recv() else {
+                            return;
+                        };
+                        let number = next.fetch_add(1, Ordering::Relaxed);
+                        drop(waiting);
+                        if number >= chunks {
+                            return;
+                        }
+                        worker.make(plan, Self::hairs_of(hairs, number), pose, &mut chunk);
+                        if give_full.send((number, chunk)).is_err() {
+                            return;
+                        }
+                    }
+                });
+            }
+            drop(give_full);
+            // Dropping `give_empty` and `take_full` on the way out, in success or
+            // failure, is what ends the threads.
+            let (give_empty, take_full) = (give_empty, take_full);
+            let mut early = BTreeMap::new();
+            let mut wanted = 0;
+            while wanted < chunks {
+                let Ok((number, chunk)) = take_full.recv() else {
+                    break;
+                };
+                early.insert(number, chunk);
+                while let Some(chunk) = early.remove(&wanted) {
+                    self.take(wanted, &chunk, sink, progress)?;
+                    wanted += 1;
+                    let _ = give_empty.send(chunk);
+                }
+            }
+            Ok(())
+        })
+    }
+
+    fn take(
+        &mut self,
+        number: u64,
+        chunk: &Chunk,
+        sink: &mut dyn Sink,
+        progress: &mut dyn FnMut(u64) -> bool,
+    ) -> Result<(), GenerateError> {
+        let started = self.report.clock.start();
+        if !chunk.strands.is_empty() {
+            sink.write(&chunk.strands)?;
+        }
+        self.report.clock.stop(Stage::Sink, started);
+        self.report.clock.add(&chunk.clock);
+        self.report.strands += chunk.strands.len() as u64;
+        self.report.vertices += chunk.strands.points.len() as u64;
+        self.report.dropped.add(&chunk.dropped);
+        let done = Self::hairs_of(&self.hairs, number).end - self.hairs.start;
+        if progress(self.before + done) {
+            Ok(())
+        } else {
+            Err(GenerateError::Stopped)
+        }
+    }
+}

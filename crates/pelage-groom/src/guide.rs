@@ -1,0 +1,101 @@
+//! Guides: bound to the surface at rest, kept in the local frame of their root.
+
+use crate::PlanError;
+use pelage_curves::{Basis, Curve, Vec3, Wrap};
+use pelage_surface::{ClosestPoint, Mesh, RootFrame, SurfacePoint};
+use rayon::prelude::*;
+
+/// A guide on the surface at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Guide {
+    /// Where it grows.
+    pub root: SurfacePoint,
+    /// Position and frame of the root at rest.
+    pub frame: RootFrame,
+    /// Vertices in the root's local frame (tangent, binormal, normal); the first is
+    /// the origin.
+    pub local: Vec<Vec3>,
+}
+
+impl Guide {
+    /// A guide at `root` whose vertices, relative to its root, are `offsets` in the
+    /// space of `mesh` at rest.
+    pub fn new(mesh: &Mesh, root: SurfacePoint, offsets: &[Vec3]) -> Self {
+        let frame = mesh.frame(&root);
+        Self {
+            root,
+            frame,
+            local: offsets.iter().map(|&o| frame.local(o)).collect(),
+        }
+    }
+
+    /// The same guide with `segments + 1` vertices at equal steps of arc length along
+    /// the Catmull-Rom curve through its vertices.
+    pub fn resampled(&self, segments: usize) -> Self {
+        let local = match Curve::new(&self.local, Basis::CatmullRom, Wrap::Pinned) {
+            Ok(curve) => curve.resample(segments),
+            Err(_) => vec![Vec3::ZERO; segments + 1],
+        };
+        Self {
+            local,
+            ..self.clone()
+        }
+    }
+
+    /// Length of the polygon through the vertices.
+    pub fn length(&self) -> f32 {
+        self.local.windows(2).map(|w| w[0].distance(w[1])).sum()
+    }
+}
+
+/// A guide that lies off the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FarGuide {
+    /// Its index in the file.
+    pub index: usize,
+    /// Distance of its first vertex from the surface.
+    pub distance: f32,
+}
+
+/// Binds curves (vertices in the space of `mesh` at rest, root first) to the places of
+/// `mesh` nearest to their first vertex. A guide farther away than `tolerance` is an
+/// error that lists them all; so is one without two different vertices.
+pub fn bind(mesh: &Mesh, curves: &[Vec<Vec3>], tolerance: f32) -> Result<Vec<Guide>, PlanError> {
+    let closest = ClosestPoint::new(mesh);
+    let bound: Vec<_> = curves
+        .par_iter()
+        .enumerate()
+        .map(|(index, curve)| bind_one(mesh, &closest, index, curve))
+        .collect::<Result<_, _>>()?;
+    let far: Vec<FarGuide> = bound
+        .iter()
+        .enumerate()
+        .filter(|(_, (_, distance))| *distance > tolerance)
+        .map(|(index, &(_, distance))| FarGuide { index, distance })
+        .collect();
+    if far.is_empty() {
+        Ok(bound.into_iter().map(|(guide, _)| guide).collect())
+    } else {
+        Err(PlanError::FarGuides { far, tolerance })
+    }
+}
+
+fn bind_one(
+    mesh: &Mesh,
+    closest: &ClosestPoint,
+    index: usize,
+    curve: &[Vec3],
+) -> Result<(Guide, f32), PlanError> {
+    if let Some(vertex) = curve.iter().position(|p| !p.is_finite()) {
+        return Err(PlanError::GuideNotFinite { index, vertex });
+    }
+    let Some(&first) = curve.first() else {
+        return Err(PlanError::GuideTooShort { index });
+    };
+    if curve.iter().all(|&p| p == first) {
+        return Err(PlanError::GuideTooShort { index });
+    }
+    let (root, distance) = closest.query(first).ok_or(PlanError::NoSurface)?;
+    let offsets: Vec<Vec3> = curve.iter().map(|&p| p - first).collect();
+    Ok((Guide::new(mesh, root, &offsets), distance))
+}

@@ -1,0 +1,50 @@
+//! The guides of one interpolation group, ready to be mixed.
+
+use crate::guide::Guide;
+use crate::locator::Locator;
+use pelage_curves::Vec3;
+use pelage_surface::{Mesh, RootFrame};
+
+/// The guides of one group as arrays.
+#[derive(Clone, Debug)]
+pub(crate) struct GuideSet {
+    /// Segments of the group's hairs.
+    pub segments: u32,
+    /// `segments + 1` local vertices a guide, one guide after the other.
+    pub vertices: Vec<Vec3>,
+    /// Frame of each guide's root at rest.
+    pub frames: Vec<RootFrame>,
+    /// Length of each guide.
+    pub lengths: Vec<f32>,
+    /// Finds the guides nearest to a root.
+    pub locator: Locator,
+}
+
+impl GuideSet {
+    /// Resamples `guides` to `segments` each and prepares finding the `nearest`.
+    pub(crate) fn new(mesh: &Mesh, guides: &[&Guide], segments: u32, nearest: usize) -> Self {
+        let resampled: Vec<Guide> = guides
+            .iter()
+            .map(|g| g.resampled(segments as usize))
+            .collect();
+        Self {
+            segments,
+            vertices: resampled
+                .iter()
+                .flat_map(|g| g.local.iter().copied())
+                .collect(),
+            frames: resampled.iter().map(|g| g.frame).collect(),
+            lengths: resampled.iter().map(Guide::length).collect(),
+            locator: Locator::new(
+                mesh,
+                resampled.iter().map(|g| g.frame.position).collect(),
+                nearest,
+            ),
+        }
+    }
+
+    /// Whether the group has no guide.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.frames.is_empty()
+    }
+}

@@ -1,0 +1,265 @@
+//! The compiled groom: immutable, shared between threads, never fails once built.
+
+use crate::color::ColorSpace;
+use crate::groom::Groom;
+use crate::groups::Groups;
+use crate::guide::{self, Guide};
+use crate::guide_set::GuideSet;
+use crate::maps::{ColorField, FieldMaker, ScalarField};
+use crate::recipe::{self, GuideSource, Method, Recipe, Segments};
+use crate::{PlanError, grow};
+use pelage_surface::{Density, Mesh, RootSampler, VoxelRoots, Wrap};
+
+/// A groom compiled: everything that can fail has.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    pub(crate) rest: Mesh,
+    pub(crate) sampler: Option<RootSampler>,
+    pub(crate) groups: Groups,
+    pub(crate) guides: Vec<GuideSet>,
+    pub(crate) method: Method,
+    pub(crate) wanted: usize,
+    pub(crate) fields: Fields,
+    pub(crate) seed: u64,
+    pub(crate) normals: bool,
+    count: u64,
+    guide_count: usize,
+    notes: Vec<String>,
+}
+
+/// The properties that are read at each root.
+#[derive(Clone, Debug)]
+pub(crate) struct Fields {
+    pub scale: ScalarField,
+    pub scale_random: ScalarField,
+    pub color: [ColorField; 2],
+    pub color_space: ColorSpace,
+    pub opacity: [ScalarField; 2],
+    pub width: [ScalarField; 2],
+}
+
+impl Plan {
+    /// Compiles a groom. Every error a user can make in it ends here.
+    pub fn new(groom: Groom) -> Result<Self, PlanError> {
+        let recipe = &groom.recipe;
+        let mut polygons = groom.mesh;
+        if !groom.keep_file_normals {
+            polygons.corner_normals.clear();
+        }
+        let rest = Mesh::new(polygons)?;
+        if rest.degenerate_triangles() == rest.triangles().len() {
+            return Err(PlanError::NoSurface);
+        }
+        let mut maker = FieldMaker::new(&groom.images, rest.has_uvs());
+        let sampler = sampler(recipe, &rest, &mut maker)?;
+        let fields = Fields::new(recipe, &mut maker)?;
+        let all = match (&sampler, recipe.guides.source()) {
+            (_, Some(GuideSource::Curves(_))) => {
+                guide::bind(&rest, &groom.guides, tolerance(recipe, &rest))?
+            }
+            (Some(sampler), Some(GuideSource::Grow(rule))) => {
+                grow::grow(rule, &rest, sampler, &groom.images)?
+            }
+            _ => Vec::new(),
+        };
+        let mut plan = Self {
+            groups: groups(recipe, &maker, &all)?,
+            guides: Vec::new(),
+            method: recipe.interpolation.method,
+            wanted: recipe.interpolation.guides as usize,
+            fields,
+            seed: recipe.hair.seed,
+            normals: recipe.output.normals,
+            count: recipe.hair.count,
+            guide_count: all.len(),
+            notes: Vec::new(),
+            rest,
+            sampler,
+        };
+        plan.share_out(&all)?;
+        plan.note();
+        Ok(plan)
+    }
+
+    /// Gives each group its guides; a group whose hairs would have none is an error.
+    fn share_out(&mut self, all: &[Guide]) -> Result<(), PlanError> {
+        let Some(sampler) = &self.sampler else {
+            return Ok(());
+        };
+        if self.count > 0 && all.is_empty() {
+            return Err(PlanError::NoGuides);
+        }
+        let nearest = match self.method {
+            Method::Nearest => 1,
+            _ => self.wanted + 1,
+        };
+        let group_of: Vec<u32> = all
+            .iter()
+            .map(|g| self.groups.at(self.rest.uv(&g.root)))
+            .collect();
+        for (index, group) in self.groups.all().iter().enumerate() {
+            let mine: Vec<&Guide> = all
+                .iter()
+                .zip(&group_of)
+                .filter(|(_, g)| **g as usize == index)
+                .map(|(guide, _)| guide)
+                .collect();
+            self.guides
+                .push(GuideSet::new(&self.rest, &mine, group.segments, nearest));
+        }
+        let lonely = sampler
+            .piece_centres()
+            .map(|place| self.groups.at(self.rest.uv(&place)))
+            .find(|&group| self.guides[group as usize].is_empty());
+        match lonely {
+            Some(group) if self.count > 0 => Err(PlanError::GroupWithoutGuides {
+                group,
+                color: self.groups.all()[group as usize].name(),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    fn note(&mut self) {
+        let degenerate = self.rest.degenerate_triangles();
+        if degenerate > 0 {
+            self.notes
+                .push(format!("{degenerate} degenerate triangles grow no hair"));
+        }
+        if self.sampler.is_none() {
+            self.notes
+                .push("roots.density is 0 on the whole surface: no hair can grow".into());
+        }
+    }
+
+    /// Things worth telling that are no errors, in plain words.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Hairs the recipe asks for; 0 where no hair can grow.
+    pub fn count(&self) -> u64 {
+        if self.sampler.is_some() {
+            self.count
+        } else {
+            0
+        }
+    }
+
+    /// The surface at rest.
+    pub fn rest(&self) -> &Mesh {
+        &self.rest
+    }
+
+    /// Number of guides.
+    pub fn guide_count(&self) -> usize {
+        self.guide_count
+    }
+
+    /// The groups of the groom.
+    pub fn groups(&self) -> &Groups {
+        &self.groups
+    }
+
+    /// Places on the surface as a sampler of roots; `None` where no hair can grow.
+    pub fn sampler(&self) -> Option<&RootSampler> {
+        self.sampler.as_ref()
+    }
+
+    /// The hairs of each cell of a grid over the rest bounds (architecture.md, law 3);
+    /// `None` where no hair can grow.
+    pub fn voxels(&self, resolution: [u32; 3]) -> Option<VoxelRoots<'_>> {
+        self.sampler
+            .as_ref()
+            .map(|s| VoxelRoots::new(s, &self.rest, resolution))
+    }
+}
+
+impl Fields {
+    fn new(recipe: &Recipe, maker: &mut FieldMaker) -> Result<Self, PlanError> {
+        let r = recipe;
+        Ok(Self {
+            scale: maker.scalar("scale.amount", &r.scale.amount)?,
+            scale_random: maker.scalar("scale.random", &r.scale.random)?,
+            color: [
+                maker.color("color.root", &r.color.root)?,
+                maker.color("color.tip", &r.color.tip)?,
+            ],
+            color_space: match r.color.space {
+                recipe::ColorSpace::Hsv => ColorSpace::Hsv,
+                recipe::ColorSpace::Oklab => ColorSpace::Oklab,
+                recipe::ColorSpace::Rgb => ColorSpace::Rgb,
+            },
+            opacity: [
+                maker.scalar("opacity.root", &r.opacity.root)?,
+                maker.scalar("opacity.tip", &r.opacity.tip)?,
+            ],
+            width: [
+                maker.scalar("width.root", &r.width.root)?,
+                maker.scalar("width.tip", &r.width.tip)?,
+            ],
+        })
+    }
+}
+
+fn sampler(
+    recipe: &Recipe,
+    rest: &Mesh,
+    maker: &mut FieldMaker,
+) -> Result<Option<RootSampler>, PlanError> {
+    let density = maker.scalar("roots.density", &recipe.roots.density)?;
+    let (value, map) = density.parts();
+    if let Some((map, _)) = map {
+        refuse_negative(map)?;
+    }
+    let density = Density {
+        value,
+        map: map.map(|(map, wrap)| (map, 0, wrap)),
+    };
+    Ok(RootSampler::new(rest, &density, recipe.hair.seed))
+}
+
+fn refuse_negative(map: &pelage_surface::ImageMap) -> Result<(), PlanError> {
+    match map.texels().iter().position(|t| *t < 0.0) {
+        None => Ok(()),
+        Some(texel) => Err(PlanError::NegativeDensity {
+            x: (texel % map.width() as usize) as u32,
+            y: (texel / map.width() as usize) as u32,
+            value: map.texels()[texel],
+        }),
+    }
+}
+
+/// A hundredth of the diagonal of the mesh's box, unless the recipe says otherwise.
+fn tolerance(recipe: &Recipe, rest: &Mesh) -> f32 {
+    let (low, high) = rest.bounds();
+    recipe
+        .guides
+        .tolerance
+        .unwrap_or_else(|| low.distance(high) * 0.01)
+}
+
+/// Groups and their segments; where the recipe gives no number, a group's hairs get as
+/// many segments as its guide with the most.
+fn groups(recipe: &Recipe, maker: &FieldMaker, guides: &[Guide]) -> Result<Groups, PlanError> {
+    let most = guides
+        .iter()
+        .map(|g| g.local.len().saturating_sub(1))
+        .max()
+        .unwrap_or(1) as u32;
+    let Some(used) = &recipe.groups.map else {
+        return Ok(Groups::single(match recipe.groups.segments {
+            Some(Segments::All(n)) => n,
+            _ => most,
+        }));
+    };
+    let map = maker.image("groups.map", used)?;
+    match &recipe.groups.segments {
+        Some(Segments::ByColor(listed)) => {
+            let listed: Vec<_> = listed.iter().map(|(&color, &n)| (color, n)).collect();
+            Ok(Groups::listed(&map, Wrap::Repeat, &listed))
+        }
+        Some(Segments::All(n)) => Groups::found(&map, Wrap::Repeat, *n),
+        None => Groups::found(&map, Wrap::Repeat, most),
+    }
+}

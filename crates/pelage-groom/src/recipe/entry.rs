@@ -1,0 +1,143 @@
+//! What every kind of value in a recipe can do: be read, be described, be listed.
+
+use schemars::{Schema, SchemaGenerator};
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::limits::Limits;
+use super::map::MapUse;
+use super::reader::Reader;
+
+/// What a key asks of its value.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Rule {
+    /// The interval of its numbers.
+    pub(crate) limits: Limits,
+    /// Whether leaving it out is an error.
+    pub(crate) required: bool,
+    /// Whether it takes `{ ramp = … }`: the root of a root/tip pair.
+    pub(crate) ramp: bool,
+}
+
+impl Rule {
+    pub(crate) const ANY: Self = Self::within(Limits::ANY);
+
+    pub(crate) const fn within(limits: Limits) -> Self {
+        Self {
+            limits,
+            required: false,
+            ramp: false,
+        }
+    }
+
+    pub(crate) const fn at_least(min: f64) -> Self {
+        Self::within(Limits::at_least(min))
+    }
+
+    pub(crate) const fn above(min: f64) -> Self {
+        Self::within(Limits::above(min))
+    }
+
+    pub(crate) const fn between(min: f64, max: f64) -> Self {
+        Self::within(Limits::between(min, max))
+    }
+
+    pub(crate) const fn required(mut self) -> Self {
+        self.required = true;
+        self
+    }
+
+    pub(crate) const fn with_ramp(mut self) -> Self {
+        self.ramp = true;
+        self
+    }
+}
+
+/// One key and its value, as the listings see it.
+pub(crate) struct Leaf<'a> {
+    /// Dotted key from the top.
+    pub(crate) key: String,
+    /// The value as TOML; none where the key is absent and has no default.
+    pub(crate) text: Option<String>,
+    /// Maps used, each with its own dotted key.
+    pub(crate) maps: Vec<(String, &'a MapUse)>,
+    /// Whether zero makes the value vanish: it does so whatever its map holds.
+    pub(crate) zero: bool,
+    /// Whether the value is a ramp.
+    pub(crate) ramp: bool,
+    /// The documentation of the key.
+    pub(crate) doc: &'static str,
+}
+
+impl<'a> Leaf<'a> {
+    /// A value without maps.
+    pub(crate) fn plain(key: &str, text: Option<String>, doc: &'static str) -> Self {
+        Self {
+            key: key.to_owned(),
+            text,
+            maps: Vec::new(),
+            zero: false,
+            ramp: false,
+            doc,
+        }
+    }
+}
+
+/// A value that a key of a recipe can have.
+pub(crate) trait Entry {
+    /// Takes over `value`, or reports what is wrong with it and stays as it was.
+    fn read(
+        &mut self,
+        value: &Spanned<DeValue<'_>>,
+        key: &str,
+        rule: Rule,
+        reader: &mut Reader<'_>,
+    );
+
+    /// Reports the keys that are required and not there; `span` is the table
+    /// that should hold `key`.
+    fn absent(
+        &self,
+        key: &str,
+        rule: Rule,
+        span: &std::ops::Range<usize>,
+        reader: &mut Reader<'_>,
+    ) {
+        if rule.required {
+            reader.missing(key, span.clone(), None);
+        }
+    }
+
+    /// The JSON Schema of the allowed values; `self` holds the default.
+    fn schema(&self, rule: Rule, generator: &mut SchemaGenerator) -> Schema;
+
+    /// Shows every key below this one.
+    fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>));
+}
+
+impl<T: Entry + Default> Entry for Option<T> {
+    fn read(
+        &mut self,
+        value: &Spanned<DeValue<'_>>,
+        key: &str,
+        rule: Rule,
+        reader: &mut Reader<'_>,
+    ) {
+        let mut inner = T::default();
+        inner.read(value, key, rule, reader);
+        *self = Some(inner);
+    }
+
+    fn schema(&self, rule: Rule, generator: &mut SchemaGenerator) -> Schema {
+        let mut schema = T::default().schema(rule, generator);
+        schema.remove("default");
+        schema
+    }
+
+    fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
+        match self {
+            Some(inner) => inner.walk(key, doc, visit),
+            None => visit(Leaf::plain(key, None, doc)),
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! `[guides.grow]`: guides made by rule, for fur that needs no artist's curves.
+
+use super::comb::Comb;
+use super::entry::Rule;
+use super::property::ScalarProperty;
+use super::section::section;
+
+section! {
+    /// Guides grown by rule: spread over the surface like hairs (so they follow
+    /// `roots.density`), leaning from the normal toward the comb direction.
+    pub struct Grow {
+        /// Number of guides.
+        pub count: u32 = 500 => Rule::at_least(1.0),
+        /// Chooses where the guides stand, apart from `hair.seed`; whole numbers up
+        /// to 2^64 - 1.
+        pub seed: u64 = 0 => Rule::at_least(0.0),
+        /// Length of a guide, in units of the mesh.
+        pub length: ScalarProperty = ScalarProperty::new(1.0) => Rule::at_least(0.0).required(),
+        /// Segments of a guide; it has one vertex more.
+        pub segments: u32 = 8 => Rule::at_least(1.0),
+        /// Angle from the normal of the surface toward the comb direction, in
+        /// degrees: 0 stands up, 90 lies flat.
+        pub lean: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 180.0),
+        /// The direction to lean in. Left out, the tangent along +u.
+        pub comb: Option<Comb> = None => Rule::ANY,
+        /// A helix around the line of each guide.
+        pub curl: Curl = Curl::default() => Rule::ANY,
+    }
+}
+
+section! {
+    /// A helix around the line of a guide.
+    pub struct Curl {
+        /// Radius, in units of the mesh; 0 is straight.
+        pub radius: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0),
+        /// Turns from root to tip, to the left where negative.
+        pub turns: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY,
+    }
+}

@@ -1,0 +1,44 @@
+//! `[interpolation]`: how guides shape the hairs between them.
+
+use super::entry::Rule;
+use super::facing::Facing;
+use super::section::section;
+use super::word::words;
+
+words! {
+    /// How guides share a hair among them.
+    pub enum Method {
+        /// Shepard weights of the nearest guides (document 004, 2.2.4).
+        InverseDistance = "inverse-distance",
+        /// The nearest guide alone.
+        Nearest = "nearest",
+        /// Natural neighbours: Sibson's weights over the surface.
+        NaturalNeighbor = "natural-neighbor",
+    }
+}
+
+words! {
+    /// What of the guides is interpolated.
+    pub enum InterpolationSpace {
+        /// The vertices, in the local frame of the root.
+        Vertices = "vertices",
+        /// Curvature and torsion along the strand (document 000, 4.3).
+        Frenet = "frenet",
+    }
+}
+
+section! {
+    /// How guides shape the hairs between them.
+    pub struct Interpolation {
+        /// Number of guides that shape a hair (document 004:
+        /// Interpolation_Samples); a group with fewer uses all it has.
+        pub guides: u32 = 3 => Rule::at_least(1.0),
+        /// How guides share a hair among them.
+        pub method: Method = Method::InverseDistance => Rule::ANY,
+        /// What of the guides is interpolated.
+        pub space: InterpolationSpace = InterpolationSpace::Vertices => Rule::ANY,
+        /// Whether guides that point away from the surface count less: false,
+        /// true, or { exponent = a } (document 000, eq. 49).
+        pub facing: Facing = Facing::Off => Rule::at_least(0.0),
+    }
+}

@@ -1,0 +1,20 @@
+//! `[kink]`: noise along each hair.
+
+use super::entry::Rule;
+use super::property::ScalarProperty;
+use super::section::section;
+
+section! {
+    /// Noise along each hair (document 004, 2.2.5).
+    pub struct Kink {
+        /// Frequencies of the noise along x, y and z (document 004:
+        /// Kink_X_Frequency and so on).
+        pub frequency: [ScalarProperty; 3] =
+            [ScalarProperty::new(1.0), ScalarProperty::new(1.0), ScalarProperty::new(1.0)]
+            => Rule::at_least(0.0),
+        /// Amount at the root (document 004: Root_Kink).
+        pub root: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).with_ramp(),
+        /// Amount at the tip (document 004: Tip_Kink).
+        pub tip: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0),
+    }
+}

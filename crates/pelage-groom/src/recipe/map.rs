@@ -1,0 +1,157 @@
+//! Image maps as a recipe names them.
+
+use pelage_surface::Wrap;
+use schemars::{Schema, SchemaGenerator};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::entry::{Entry, Leaf, Rule};
+use super::path::{FilePath, quoted};
+use super::reader::{Reader, join};
+use super::word::{self, words};
+
+words! {
+    /// Which number of a texel a scalar property reads.
+    pub enum Channel {
+        /// The first channel, the only one of a grey image.
+        Red = "r",
+        /// The second channel.
+        Green = "g",
+        /// The third channel.
+        Blue = "b",
+        /// The fourth channel.
+        Alpha = "a",
+        /// Rec. 709 luminance of the linear colour.
+        Luminance = "luminance",
+    }
+}
+
+words! {
+    /// How the codes of an image are to be understood.
+    pub enum MapSpace {
+        /// The numbers as they are.
+        Linear = "linear",
+        /// sRGB codes, decoded to linear.
+        Srgb = "srgb",
+    }
+}
+
+words! {
+    /// How a map acts on the value beside it.
+    pub enum Blend {
+        /// `value + map`: what document 004 does with colours (2.2.6).
+        Add = "add",
+        /// `value × map`: always so for numbers.
+        Multiply = "multiply",
+    }
+}
+
+/// A map and how it is read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapUse {
+    /// The image.
+    pub path: FilePath,
+    /// The channel read. `None` reads the whole colour (the default of colours
+    /// and directions); numbers always have one, red unless the recipe says
+    /// otherwise. A colour with a channel is grey of that channel.
+    pub channel: Option<Channel>,
+    /// What lies outside 0..1 of the UVs; repeats by default.
+    pub wrap: Wrap,
+    /// How codes are read. `None` leaves it to the image: 8-bit colour maps are
+    /// sRGB, everything else is linear.
+    pub space: Option<MapSpace>,
+    /// How the map acts on the value: numbers multiply, colours add by default.
+    pub blend: Blend,
+}
+
+impl MapUse {
+    /// The map at `path`, read as properties read it by default: `channel` is
+    /// red for numbers and `None` for colours.
+    pub fn new(path: FilePath, channel: Option<Channel>, blend: Blend) -> Self {
+        Self {
+            path,
+            channel,
+            wrap: Wrap::default(),
+            space: None,
+            blend,
+        }
+    }
+
+    /// Reads the keys of a table that goes with `map`, which must be there if
+    /// any of them is.
+    pub(crate) fn read(
+        table: &DeTable<'_>,
+        key: &str,
+        standard: MapUse,
+        keys: &[&str],
+        reader: &mut Reader<'_>,
+    ) -> Option<Self> {
+        let mut using = standard;
+        let map = join(key, "map");
+        let path = reader.find(table, &map, "map");
+        for name in ["channel", "wrap", "space", "blend"] {
+            let inner = join(key, name);
+            if !keys.contains(&name) {
+                continue;
+            }
+            let Some(value) = reader.find(table, &inner, name) else {
+                continue;
+            };
+            if path.is_none() {
+                reader.lonely(&inner, value.span(), "map");
+            }
+            match name {
+                "channel" => using.channel.read(value, &inner, Rule::ANY, reader),
+                "wrap" => using.wrap.read(value, &inner, Rule::ANY, reader),
+                "space" => using.space.read(value, &inner, Rule::ANY, reader),
+                _ => using.blend.read(value, &inner, Rule::ANY, reader),
+            }
+        }
+        using.path.read(path?, &map, Rule::ANY, reader);
+        Some(using)
+    }
+
+    /// The keys `map`, `channel`, … as they go into an inline table.
+    pub(crate) fn text(&self, standard_channel: Option<Channel>, standard_blend: Blend) -> String {
+        let mut text = format!("map = {}", quoted(&self.path.written));
+        if let Some(channel) = self.channel.filter(|_| self.channel != standard_channel) {
+            text += &format!(", channel = \"{channel}\"");
+        }
+        if self.wrap == Wrap::Clamp {
+            text += ", wrap = \"clamp\"";
+        }
+        if let Some(space) = self.space {
+            text += &format!(", space = \"{space}\"");
+        }
+        if self.blend != standard_blend {
+            text += &format!(", blend = \"{}\"", self.blend);
+        }
+        text
+    }
+}
+
+impl Entry for Wrap {
+    fn read(&mut self, value: &Spanned<DeValue<'_>>, key: &str, _: Rule, reader: &mut Reader<'_>) {
+        if let Some(i) = word::position(value, key, &["repeat", "clamp"], reader) {
+            *self = [Wrap::Repeat, Wrap::Clamp][i];
+        }
+    }
+
+    fn schema(&self, _: Rule, _: &mut SchemaGenerator) -> Schema {
+        word::schema(
+            "repeat",
+            &[
+                ("repeat", "the image repeats outside 0..1"),
+                ("clamp", "the border texels go on"),
+            ],
+        )
+    }
+
+    fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
+        let word = match self {
+            Wrap::Repeat => "\"repeat\"",
+            Wrap::Clamp => "\"clamp\"",
+        };
+        visit(Leaf::plain(key, Some(word.to_owned()), doc));
+    }
+}

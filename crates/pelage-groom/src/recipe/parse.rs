@@ -1,0 +1,96 @@
+//! From the text of a `groom.toml` to a recipe.
+
+use std::path::Path;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::Recipe;
+use super::check::check;
+use super::entry::{Entry, Rule};
+use super::error::{Problem, RecipeError};
+use super::map::MapUse;
+use super::origin::Origin;
+use super::reader::Reader;
+use super::syntax::syntax;
+
+/// Largest recipe in bytes. Real ones are a few kilobytes; the limit is against
+/// a mesh or an image passed by mistake.
+const LARGEST: usize = 16 << 20;
+
+impl Recipe {
+    /// Reads the text of `file`, which names the recipe in errors and whose
+    /// folder is where relative paths start. The file itself is not opened.
+    ///
+    /// The error lists every mistake, each with its place.
+    pub fn parse(text: &str, file: &Path) -> Result<Self, RecipeError> {
+        let (recipe, mut problems) = read(text, file)?;
+        for unbuilt in recipe.unbuilt() {
+            // A value that is wrong in itself has been reported.
+            let wrong = |problem: &Problem| problem.key.starts_with(&unbuilt.key);
+            if !problems.iter().any(wrong) {
+                problems.push(recipe.unbuilt_problem(&unbuilt.key, unbuilt.message));
+            }
+        }
+        finish(recipe, problems)
+    }
+
+    /// Like [`Recipe::parse`], but accepts keys whose stage does not exist yet;
+    /// [`Recipe::unbuilt`] then lists them.
+    pub fn parse_ahead(text: &str, file: &Path) -> Result<Self, RecipeError> {
+        let (recipe, problems) = read(text, file)?;
+        finish(recipe, problems)
+    }
+
+    /// Opens and reads a `groom.toml`.
+    pub fn load(file: &Path) -> Result<Self, RecipeError> {
+        let failed = |error| RecipeError::of_file(file, format!("cannot read the recipe: {error}"));
+        let size = std::fs::metadata(file).map_err(failed)?.len();
+        if size > LARGEST as u64 {
+            return Err(too_large(file, size));
+        }
+        let bytes = std::fs::read(file).map_err(failed)?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            RecipeError::of_file(file, format!("not UTF-8 text: byte {at} is wrong"))
+        })?;
+        Self::parse(&text, file)
+    }
+
+    /// Every map the recipe uses, with its dotted key.
+    pub fn maps(&self) -> Vec<(String, &MapUse)> {
+        let mut maps = Vec::new();
+        self.walk("", "", &mut |leaf| maps.extend(leaf.maps));
+        maps
+    }
+}
+
+/// What can be read, and what is wrong with the rest.
+fn read(text: &str, file: &Path) -> Result<(Recipe, Vec<Problem>), RecipeError> {
+    if text.len() > LARGEST {
+        return Err(too_large(file, text.len() as u64));
+    }
+    // The parser bounds the depth of tables and lists itself (80).
+    let table = DeTable::parse(text).map_err(|error| syntax(text, file, error))?;
+    let table = Spanned::new(table.span(), DeValue::Table(table.into_inner()));
+    let mut reader = Reader::new(text, file);
+    let mut recipe = Recipe::default();
+    recipe.read(&table, "", Rule::ANY, &mut reader);
+    check(&recipe, &mut reader);
+    let (problems, spans) = reader.finish();
+    recipe.origin = Origin::new(file, text, spans);
+    Ok((recipe, problems))
+}
+
+/// The recipe, if nothing is wrong.
+fn finish(recipe: Recipe, problems: Vec<Problem>) -> Result<Recipe, RecipeError> {
+    match RecipeError::from_problems(problems) {
+        Some(error) => Err(error),
+        None => Ok(recipe),
+    }
+}
+
+fn too_large(file: &Path, size: u64) -> RecipeError {
+    let message = format!("{size} bytes are too much for a recipe, which has {LARGEST} at most");
+    RecipeError::of_file(file, message)
+}

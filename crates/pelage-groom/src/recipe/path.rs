@@ -1,0 +1,76 @@
+//! Paths, relative to the folder of the recipe.
+
+use std::path::{Path, PathBuf};
+
+use schemars::{Schema, SchemaGenerator};
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::entry::{Entry, Leaf, Rule};
+use super::reader::Reader;
+
+/// A file that a recipe names.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct FilePath {
+    /// The path as the recipe writes it.
+    pub written: String,
+    /// The path to open: relative ones start at the folder of the recipe.
+    pub resolved: PathBuf,
+}
+
+impl FilePath {
+    /// `written`, starting at `folder` unless it is absolute.
+    ///
+    /// ```
+    /// use pelage_groom::recipe::FilePath;
+    /// use std::path::Path;
+    ///
+    /// let map = FilePath::new("maps/density.png", Path::new("hero"));
+    /// assert_eq!(map.resolved, Path::new("hero/maps/density.png"));
+    /// ```
+    pub fn new(written: impl Into<String>, folder: &Path) -> Self {
+        let written = written.into();
+        let resolved = folder.join(&written);
+        Self { written, resolved }
+    }
+}
+
+impl std::fmt::Display for FilePath {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.written)
+    }
+}
+
+/// `text` in quotes, with TOML's escapes.
+pub(crate) fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}
+
+impl Entry for FilePath {
+    fn read(&mut self, value: &Spanned<DeValue<'_>>, key: &str, _: Rule, reader: &mut Reader<'_>) {
+        match value.get_ref().as_str() {
+            Some(text) if !text.trim().is_empty() => *self = Self::new(text, reader.folder()),
+            _ => reader.wrong_type(key, value, "the path of a file".to_owned()),
+        }
+    }
+
+    fn absent(
+        &self,
+        key: &str,
+        rule: Rule,
+        span: &std::ops::Range<usize>,
+        reader: &mut Reader<'_>,
+    ) {
+        if rule.required {
+            reader.missing(key, span.clone(), Some("the path of a file"));
+        }
+    }
+
+    fn schema(&self, _: Rule, _: &mut SchemaGenerator) -> Schema {
+        schemars::json_schema!({ "type": "string", "minLength": 1 })
+    }
+
+    fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
+        visit(Leaf::plain(key, Some(quoted(&self.written)), doc));
+    }
+}

@@ -1,0 +1,18 @@
+//! `[roots]`: where hairs stand.
+
+use super::entry::Rule;
+use super::property::ScalarProperty;
+use super::section::section;
+
+section! {
+    /// Where hairs stand.
+    pub struct Roots {
+        /// Relative density of hairs over the rest surface (document 004:
+        /// Density_Map). Only ratios matter: the number of hairs is `hair.count`.
+        pub density: ScalarProperty = ScalarProperty::new(1.0) => Rule::at_least(0.0),
+        /// How far roots move along the normal of the posed mesh, in units of the
+        /// mesh: the displacement of the skin's shader. Where hairs grow is not
+        /// changed by it.
+        pub displacement: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY,
+    }
+}

@@ -1,0 +1,64 @@
+//! Colour, opacity and width along a hair.
+//!
+//! Source: document 004, sections 2.2.6 and 2.2.9: values at root and tip, mixed
+//! linearly in t = i / segments; colours in HSV with the hue on its shorter arc, or in
+//! Oklab or RGB. Colours linear RGB in 0..=1, widths full diameters in the unit of the
+//! mesh.
+
+use crate::color::ColorMix;
+
+/// A hair's values at root and tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Colour, root to tip.
+    pub color: ColorMix,
+    /// Opacity at root and tip.
+    pub opacity: [f32; 2],
+    /// Width at root and tip.
+    pub width: [f32; 2],
+}
+
+/// Writes the values at the vertices of a hair; the three slices have one length.
+#[inline]
+pub fn along(look: &Look, colors: &mut [[f32; 3]], opacities: &mut [f32], widths: &mut [f32]) {
+    let step = 1.0 / (colors.len().max(2) - 1) as f32;
+    let mix = |[root, tip]: [f32; 2], t: f32| root * (1.0 - t) + tip * t;
+    for (i, ((color, opacity), width)) in colors
+        .iter_mut()
+        .zip(opacities.iter_mut())
+        .zip(widths.iter_mut())
+        .enumerate()
+    {
+        let t = i as f32 * step;
+        *color = look.color.at(t);
+        *opacity = mix(look.opacity, t);
+        *width = mix(look.width, t);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::ColorSpace;
+
+    #[test]
+    fn root_and_tip_are_what_was_asked() {
+        let (root, tip) = ([0.2, 0.1, 0.05], [0.9, 0.7, 0.4]);
+        for space in [ColorSpace::Hsv, ColorSpace::Oklab, ColorSpace::Rgb] {
+            let look = Look {
+                color: ColorMix::new(space, root, tip),
+                opacity: [1.0, 0.25],
+                width: [0.02, 0.0],
+            };
+            let (mut colors, mut opacities, mut widths) =
+                (vec![[0.0; 3]; 6], vec![0.0; 6], vec![0.0; 6]);
+            along(&look, &mut colors, &mut opacities, &mut widths);
+            for k in 0..3 {
+                assert!((colors[0][k] - root[k]).abs() < 1e-5, "{space:?}");
+                assert!((colors[5][k] - tip[k]).abs() < 1e-5, "{space:?}");
+            }
+            assert_eq!((opacities[0], opacities[5]), (1.0, 0.25));
+            assert_eq!((widths[0], widths[5]), (0.02, 0.0));
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! The stages of the pipeline, one file each, in the order of document 004, 2.2.2.
+//!
+//! A stage is a pure function over slices: inputs first, outputs last. Its header says
+//! what it does, where that comes from, and the space and unit of its arrays.
+
+pub mod frames;
+pub mod interpolate;
+pub mod look;
+pub mod roots;
+pub mod scale;
+pub mod weights;
+pub mod world;

@@ -1,0 +1,168 @@
+//! A small groom made in memory: a bumpy ball with a density, a length and a colour map.
+
+use pelage_curves::Vec3;
+use pelage_curves::glam::Mat3;
+use pelage_groom::recipe::Recipe;
+use pelage_groom::{Capture, Clock, Groom, Images, Plan, Request, Scratch, generate};
+use pelage_strands::{Collect, StrandBuffer, StreamInfo};
+use pelage_surface::{ImageMap, Mesh, PolygonMesh};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What to make the groom of.
+pub struct Fixture {
+    /// Hairs of the recipe.
+    pub count: u64,
+    /// Rings of the ball, twice as many columns.
+    pub rings: u32,
+    /// No maps.
+    pub flat: bool,
+    /// Texture turned by a quarter.
+    pub turned_uvs: bool,
+}
+
+impl Default for Fixture {
+    fn default() -> Self {
+        Self {
+            count: 5000,
+            rings: 24,
+            flat: false,
+            turned_uvs: false,
+        }
+    }
+}
+
+impl Fixture {
+    /// The ball, with a seam along a meridian.
+    pub fn mesh(&self) -> PolygonMesh {
+        let (rows, columns) = (self.rings, self.rings * 2);
+        let mut mesh = PolygonMesh::default();
+        for row in 0..=rows {
+            for column in 0..columns {
+                let a = std::f32::consts::PI * row as f32 / rows as f32;
+                let b = std::f32::consts::TAU * column as f32 / columns as f32;
+                let r = 1.0 + 0.1 * libm::sinf(3.0 * b) * libm::sinf(a);
+                mesh.positions.push([
+                    r * libm::sinf(a) * libm::cosf(b),
+                    r * libm::cosf(a),
+                    r * libm::sinf(a) * libm::sinf(b),
+                ]);
+            }
+        }
+        for row in 0..rows {
+            for column in 0..columns {
+                mesh.face_sizes.push(4);
+                for (r, c) in [(0, 0), (0, 1), (1, 1), (1, 0)] {
+                    let at = (row + r) * columns + (column + c) % columns;
+                    mesh.corner_vertices.push(at);
+                    let u = (column + c) as f32 / columns as f32;
+                    let v = 1.0 - (row + r) as f32 / rows as f32;
+                    mesh.corner_uvs.push(if self.turned_uvs {
+                        [v, 1.0 - u]
+                    } else {
+                        [u, v]
+                    });
+                }
+            }
+        }
+        mesh
+    }
+
+    fn recipe(&self) -> Recipe {
+        let maps = "
+            roots.density = { map = 'density.png' }
+            scale = { amount = { map = 'length.png' }, random = 0.3 }
+            color.root = { value = [0.1, 0.05, 0.02], map = 'color.png' }
+            color.tip = [0.9, 0.6, 0.3]
+        ";
+        let text = format!(
+            "surface.mesh = 'ball.obj'
+            hair = {{ count = {}, seed = 7 }}
+            groups.segments = 6
+            [guides.grow]
+            count = 200
+            length = 0.4
+            lean = 40.0
+            comb = [0.3, -1.0, 0.2]
+            curl = {{ radius = 0.02, turns = 1.5 }}
+            ",
+            self.count
+        );
+        let text = if self.flat {
+            text
+        } else {
+            format!("{maps}\n{text}")
+        };
+        Recipe::parse(&text, Path::new("groom.toml")).unwrap()
+    }
+
+    /// The plan of the groom.
+    pub fn plan(&self) -> Plan {
+        let mut images = Images::new();
+        let mut add = |name: &str, channels, f: &dyn Fn(usize, usize, usize) -> f32| {
+            let size = 64;
+            let texel = |i: usize| f(i / channels % size, i / channels / size, i % channels);
+            let texels = (0..size * size * channels).map(texel).collect();
+            let map = ImageMap::new(size as u32, size as u32, channels as u32, texels, false);
+            images.insert(PathBuf::from(name), Arc::new(map.unwrap()));
+        };
+        add("density.png", 1, &|x, y, _| {
+            if (x / 8 + y / 8) % 2 == 0 { 1.0 } else { 0.2 }
+        });
+        add("length.png", 1, &|x, _, _| 0.5 + x as f32 / 128.0);
+        add("color.png", 3, &|x, y, k| [x, y, x + y][k] as f32 / 256.0);
+        let groom = Groom {
+            recipe: self.recipe(),
+            mesh: self.mesh(),
+            keep_file_normals: true,
+            images,
+            guides: Vec::new(),
+        };
+        Plan::new(groom).unwrap()
+    }
+}
+
+/// The strands of `hairs` by the threaded run.
+pub fn collect(plan: &Plan, hairs: Range<u64>, threads: usize) -> StrandBuffer {
+    let mut sink = Collect::default();
+    let request = Request {
+        hairs,
+        threads,
+        info: StreamInfo::default(),
+    };
+    generate(plan, &request, &mut |_| Ok(None), &mut sink, &mut |_| true).unwrap();
+    sink.strands
+}
+
+/// The strands of a list of hairs on a pose, in one chunk.
+pub fn strands(plan: &Plan, hairs: &[u64], pose: Option<&Mesh>) -> StrandBuffer {
+    let (mut capture, mut clock) = (Capture::default(), Clock::default());
+    let mut out = StrandBuffer::new();
+    plan.capture(hairs.iter().copied(), &mut capture, &mut clock);
+    plan.evaluate(
+        &capture,
+        pose,
+        &mut Scratch::default(),
+        &mut out,
+        &mut clock,
+    );
+    out
+}
+
+/// A rotation and a shift.
+pub fn motion() -> (Mat3, Vec3) {
+    let (s, c) = (libm::sinf(1.1), libm::cosf(1.1));
+    let about_y = Mat3::from_cols(Vec3::new(c, 0.0, -s), Vec3::Y, Vec3::new(s, 0.0, c));
+    let about_x = Mat3::from_cols(Vec3::X, Vec3::new(0.0, c, s), Vec3::new(0.0, -s, c));
+    (about_y * about_x, Vec3::new(0.5, -2.0, 1.5))
+}
+
+/// The mesh in another place.
+pub fn moved(mesh: &PolygonMesh, turn: Mat3, shift: Vec3) -> PolygonMesh {
+    let mut mesh = mesh.clone();
+    for p in &mut mesh.positions {
+        *p = (turn * Vec3::from(*p) + shift).to_array();
+    }
+    mesh
+}

@@ -1,0 +1,12 @@
+//! Recipes: what is accepted, what is refused and how, and the JSON Schema.
+
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test stops where its files cannot be read"
+)]
+
+mod bad;
+mod corpus;
+mod good;
+mod mutation;
+mod schema;

@@ -1,0 +1,54 @@
+//! The JSON Schema that editors use.
+
+use std::path::Path;
+
+use pelage_groom::recipe::{schema, schema_text};
+
+use super::corpus::is_checked_in;
+
+#[test]
+fn the_checked_in_schema_is_up_to_date() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let path = root.join("schema/groom.schema.json");
+    let fresh = is_checked_in(&path, &schema_text());
+    assert!(
+        fresh,
+        "{} is old: run the tests with PELAGE_BLESS=1",
+        path.display()
+    );
+}
+
+#[test]
+fn the_schema_knows_ranges_defaults_and_words() {
+    let schema = schema();
+    let key = |path: &str| {
+        let pointer = path.replace('.', "/properties/");
+        schema.pointer(&format!("/properties/{pointer}")).unwrap()
+    };
+    assert_eq!(
+        schema["$schema"],
+        "https://json-schema.org/draft/2020-12/schema"
+    );
+    assert_eq!(schema["required"], serde_json::json!(["surface", "guides"]));
+    assert_eq!(key("surface")["required"], serde_json::json!(["mesh"]));
+    assert_eq!(key("width.root")["default"], 0.02);
+    assert_eq!(key("interpolation.guides")["minimum"], 1);
+    assert_eq!(key("color.variation.hue")["anyOf"][0]["maximum"], 180);
+    assert_eq!(key("interpolation.method")["enum"][1], "nearest");
+}
+
+#[test]
+fn every_key_of_the_schema_is_described() {
+    fn check(path: &str, schema: &serde_json::Value) {
+        let keys = schema["properties"].as_object();
+        for (name, key) in keys.into_iter().flatten() {
+            let path = format!("{path}.{name}");
+            assert!(
+                key["description"].as_str().is_some_and(|d| !d.is_empty()),
+                "{path}"
+            );
+            check(&path, key);
+        }
+    }
+    check("", &schema());
+}

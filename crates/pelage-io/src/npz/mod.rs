@@ -1,0 +1,7 @@
+//! NumPy archives: strands as named arrays.
+
+mod read;
+mod write;
+
+pub use read::read_npz_curves;
+pub use write::NpzWriter;

@@ -1,0 +1,273 @@
+//! Hair into a crate file.
+
+use super::crate_file::CrateFile;
+use super::sections::{Sections, SpecKind};
+use super::value::{Kind, ValueRep};
+use crate::columns::{Column, Content, Field, Scalar};
+use crate::file_sink::{Stream, file_sink};
+use crate::hair_prim::{self, attribute};
+use crate::recorder::{Recorder, Tally};
+use crate::write::WriteOptions;
+use pelage_strands::{Bounds, StrandBuffer, StreamInfo};
+use std::io;
+use std::path::Path;
+
+file_sink! {
+    /// Writes hair as a USD crate file (`.usdc`, `.usd`).
+    ///
+    /// `/NAME/hair` is a `BasisCurves`: cubic Catmull-Rom, nonperiodic, the first
+    /// and last vertex of each curve written twice. Widths are diameters, one a
+    /// vertex, as are `displayColor` and, where one differs from 1,
+    /// `displayOpacity`; ids, root UV (`st`), group and root at rest are one a
+    /// curve. Frames become time samples of positions and extent.
+    UsdcWriter, Usdc
+}
+
+#[derive(Debug)]
+struct Usdc {
+    file: CrateFile,
+    recorder: Recorder,
+    tool: String,
+    /// Where the points of the current frame start.
+    points_at: u64,
+    /// Points of the frames that have ended.
+    points: Vec<ValueRep>,
+}
+
+impl Stream for Usdc {
+    fn begin(path: &Path, options: &WriteOptions, info: &StreamInfo) -> io::Result<Self> {
+        Ok(Self {
+            recorder: hair_prim::recorder(info, path, options.ribbons)?,
+            file: CrateFile::create(path)?,
+            tool: options.tool.clone(),
+            points_at: 0,
+            points: Vec::new(),
+        })
+    }
+
+    fn begin_frame(&mut self) -> io::Result<()> {
+        self.recorder.begin_frame()?;
+        self.points_at = self.file.begin_array()?;
+        Ok(())
+    }
+
+    fn write(&mut self, strands: &StrandBuffer) -> io::Result<()> {
+        self.recorder.take(strands, |bytes| self.file.put(bytes))
+    }
+
+    fn end_frame(&mut self) -> io::Result<()> {
+        let vertices = self.recorder.end_frame()?.vertices;
+        let points = self.file.end_array(self.points_at, Kind::Vec3f, vertices)?;
+        self.points.push(points);
+        Ok(())
+    }
+
+    fn finish(self) -> io::Result<()> {
+        let recorded = self.recorder.finish()?;
+        let mut layer = Layer {
+            file: self.file,
+            sections: Sections::new(),
+            times: None,
+            attributes: Vec::new(),
+        };
+        layer.gather(
+            &recorded.info,
+            recorded.tally,
+            &self.points,
+            &recorded.extents,
+            recorded.columns,
+        )?;
+        layer.write(&recorded.info, &self.tool)
+    }
+}
+
+/// An attribute whose values are in the file.
+struct Written {
+    name: &'static str,
+    kind: &'static str,
+    uniform: bool,
+    interpolation: Option<&'static str>,
+    value: Value,
+}
+
+enum Value {
+    Still(ValueRep),
+    Samples(ValueRep),
+}
+
+/// The specs and their values, once all strands are there.
+struct Layer {
+    file: CrateFile,
+    sections: Sections,
+    /// Times of the samples; none for a still.
+    times: Option<ValueRep>,
+    attributes: Vec<Written>,
+}
+
+impl Layer {
+    /// Writes the values of all attributes.
+    fn gather(
+        &mut self,
+        info: &StreamInfo,
+        tally: Tally,
+        points: &[ValueRep],
+        extents: &[Bounds],
+        columns: Vec<Column>,
+    ) -> io::Result<()> {
+        if !info.frames.is_empty() {
+            self.times = Some(self.file.times(&info.frames)?);
+        }
+        for (name, token) in hair_prim::SHAPE {
+            let value = Value::Still(self.sections.token_value(token));
+            self.attributes.push(Written {
+                uniform: true,
+                ..plain(name, "token", value)
+            });
+        }
+        let points = self.sampled(points)?;
+        self.attributes.push(plain("points", "point3f[]", points));
+        let extents: Vec<ValueRep> = extents
+            .iter()
+            .map(|bounds| {
+                let corners = hair_prim::extent(bounds);
+                let raw = bytemuck::cast_slice(&corners);
+                self.file.array(Kind::Vec3f, corners.len() as u64, raw)
+            })
+            .collect::<io::Result<_>>()?;
+        let extent = self.sampled(&extents)?;
+        self.attributes.push(plain("extent", "float3[]", extent));
+        for column in columns {
+            self.gather_column(column, tally, info.frames.len())?;
+        }
+        Ok(())
+    }
+
+    /// The values of something that moves.
+    fn sampled(&mut self, values: &[ValueRep]) -> io::Result<Value> {
+        match self.times {
+            Some(times) => Ok(Value::Samples(self.file.samples(times, values)?)),
+            None => Ok(Value::Still(values[0])),
+        }
+    }
+
+    fn gather_column(&mut self, column: Column, tally: Tally, frames: usize) -> io::Result<()> {
+        let field = column.field;
+        let Some(named) = attribute(field) else {
+            return Ok(());
+        };
+        let kind = kind_of(field);
+        let entries = if field.is_per_vertex() {
+            tally.vertices
+        } else {
+            tally.curves
+        };
+        let mut interpolation = named.interpolation;
+        let value = match column.finish() {
+            Content::Absent | Content::Usual(0.0) => return Ok(()),
+            Content::Usual(value) => {
+                interpolation = Some("constant");
+                Value::Still(self.file.array(kind, 1, &value.to_le_bytes())?)
+            }
+            Content::Values(spool) if field == Field::Normals => {
+                let bytes = entries * field.stride() as u64;
+                let mut reader = spool.into_reader()?;
+                let samples = (0..frames.max(1))
+                    .map(|_| self.file.array_from(kind, entries, bytes, &mut reader))
+                    .collect::<io::Result<Vec<_>>>()?;
+                self.sampled(&samples)?
+            }
+            Content::Values(spool) => Value::Still(self.file.array_of(kind, entries, spool)?),
+        };
+        self.attributes.push(Written {
+            interpolation,
+            ..plain(named.name, named.kind, value)
+        });
+        Ok(())
+    }
+
+    /// Writes the specs.
+    fn write(mut self, info: &StreamInfo, tool: &str) -> io::Result<()> {
+        let def = ValueRep::inlined(Kind::Specifier, 0);
+        let layer = self.layer_spec(info, tool)?;
+        let groom = [
+            ("specifier", def),
+            ("typeName", self.sections.token_value("Xform")),
+            ("kind", self.sections.token_value("component")),
+            ("primChildren", self.names(&[hair_prim::CURVES])?),
+        ];
+        let groom = self
+            .sections
+            .spec(SpecKind::Prim, Some(layer), &info.name, &groom);
+        let names: Vec<&str> = self.attributes.iter().map(|a| a.name).collect();
+        let curves = [
+            ("specifier", def),
+            ("typeName", self.sections.token_value("BasisCurves")),
+            ("properties", self.names(&names)?),
+        ];
+        let curves = self
+            .sections
+            .spec(SpecKind::Prim, Some(groom), hair_prim::CURVES, &curves);
+        for attribute in &self.attributes {
+            attribute_spec(&mut self.sections, curves, attribute);
+        }
+        self.file.finish(&self.sections)
+    }
+
+    fn layer_spec(&mut self, info: &StreamInfo, tool: &str) -> io::Result<usize> {
+        let mut fields = Vec::new();
+        if !tool.is_empty() {
+            fields.push(("documentation", self.sections.string_value(tool)));
+        }
+        fields.push(("defaultPrim", self.sections.token_value(&info.name)));
+        for (name, value) in hair_prim::layer_numbers(info) {
+            fields.push((name, self.file.double(value)?));
+        }
+        let axis = hair_prim::up_axis(info.up_axis);
+        fields.push(("upAxis", self.sections.token_value(axis)));
+        fields.push(("primChildren", self.names(&[&info.name])?));
+        Ok(self.sections.spec(SpecKind::Layer, None, "/", &fields))
+    }
+
+    fn names(&mut self, names: &[&str]) -> io::Result<ValueRep> {
+        let tokens: Vec<u32> = names.iter().map(|name| self.sections.token(name)).collect();
+        self.file.tokens(&tokens)
+    }
+}
+
+fn plain(name: &'static str, kind: &'static str, value: Value) -> Written {
+    Written {
+        name,
+        kind,
+        uniform: false,
+        interpolation: None,
+        value,
+    }
+}
+
+fn attribute_spec(sections: &mut Sections, parent: usize, attribute: &Written) {
+    let mut fields = vec![
+        ("typeName", sections.token_value(attribute.kind)),
+        (
+            "variability",
+            ValueRep::inlined(Kind::Variability, attribute.uniform.into()),
+        ),
+    ];
+    if let Some(domain) = attribute.interpolation {
+        fields.push(("interpolation", sections.token_value(domain)));
+    }
+    fields.push(match attribute.value {
+        Value::Still(value) => ("default", value),
+        Value::Samples(value) => ("timeSamples", value),
+    });
+    sections.spec(SpecKind::Attribute, Some(parent), attribute.name, &fields);
+}
+
+fn kind_of(field: Field) -> Kind {
+    match field.element() {
+        (Scalar::U32, _) => Kind::Int,
+        (Scalar::U64, _) => Kind::Int64,
+        (Scalar::F32, 1) => Kind::Float,
+        (Scalar::F32, 2) => Kind::Vec2f,
+        (Scalar::F32, _) => Kind::Vec3f,
+    }
+}

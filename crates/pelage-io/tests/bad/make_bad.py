@@ -1,0 +1,199 @@
+"""Writes the bad USD and NumPy files of this folder. Needs numpy; run here."""
+
+import struct
+import zipfile
+from pathlib import Path
+
+import numpy as np
+
+HEADER = "#usda 1.0\n"
+CURVES = """def BasisCurves "hair" {{
+    uniform token type = "cubic"
+    uniform token basis = "catmullRom"
+    uniform token wrap = "pinned"
+    int[] curveVertexCounts = {counts}
+    point3f[] points = {points}
+    {more}
+}}
+"""
+MESH = """def Mesh "body" {{
+    int[] faceVertexCounts = {sizes}
+    int[] faceVertexIndices = {indices}
+    point3f[] points = {points}
+    {more}
+}}
+"""
+LINE = "[(0, 0, 0), (0, 0, 1), (1, 0, 0), (1, 0, 1)]"
+QUAD = "[(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]"
+
+
+def curves(counts="[2, 2]", points=LINE, more=""):
+    return HEADER + CURVES.format(counts=counts, points=points, more=more)
+
+
+def mesh(sizes="[4]", indices="[0, 1, 2, 3]", points=QUAD, more=""):
+    return HEADER + MESH.format(sizes=sizes, indices=indices, points=points, more=more)
+
+
+def usda():
+    deep = "".join(f'def Xform "x" {{\n' for _ in range(5000)) + "}" * 5000
+    nested = "(\n customLayerData = " + "{ dictionary a = " * 5000 + "}" * 5000
+    laughs = "".join(
+        f'def "l{i}" {{\n'
+        + "".join(f'  def "p{k}" (references = </l{i + 1}>) {{}}\n' for k in range(10))
+        + "}\n"
+        for i in range(8)
+    )
+    diamonds = "".join(
+        f'def "d{i}" (references = [</d{i + 1}>, </e{i + 1}>]) {{}}\n'
+        f'def "e{i}" (references = [</d{i + 1}>, </e{i + 1}>]) {{}}\n'
+        for i in range(24)
+    )
+    return {
+        "empty": "",
+        "header_only_wrong": "#usdz 1.0\n",
+        "nothing": HEADER,
+        "cut_in_array": curves()[:150],
+        "cut_in_string": curves()[:45],
+        "binary_rubbish": HEADER + "\x00\x01\x02 \x7f {{{ ]]",
+        "not_utf8": (HEADER + 'def "').encode() + b"\xff\xfe\xfa",
+        "deep_prims": HEADER + deep,
+        "deep_dictionaries": "#usda 1.0\n" + nested,
+        "counts_too_many": curves(counts="[2, 200000]"),
+        "counts_huge": curves(counts="[2147483647, 2147483647]"),
+        "counts_negative": curves(counts="[-2, 2]"),
+        "counts_missing": curves().replace("int[] curveVertexCounts", "int[] other"),
+        "points_missing": curves().replace("point3f[] points", "point3f[] other"),
+        "points_are_strings": curves().replace("point3f[] points = " + LINE, 'string[] points = ["a"]'),
+        "points_nan": curves(points="[(0, 0, nan), (0, 0, inf), (1, 0, 0), (1, 0, 1)]"),
+        "curve_of_one_point": curves(counts="[1, 3]"),
+        "zero_length": curves(points="[(0, 0, 0), (0, 0, 0), (1, 0, 0), (1, 0, 1)]"),
+        "widths_too_few": curves(more='float[] widths = [1, 2] (interpolation = "vertex")'),
+        "widths_negative": curves(more='float[] widths = [1, -2] (interpolation = "uniform")'),
+        "widths_unknown_domain": curves(more='float[] widths = [1] (interpolation = "nonsense")'),
+        "widths_of_wrong_type": curves(more="int widths = 3"),
+        "ids_twice": curves(more='int64[] primvars:hairId = [4, 4] (interpolation = "uniform")'),
+        "indices_out_of_range": curves(
+            more="color3f[] primvars:displayColor = [(1, 0, 0)]\nint[] primvars:displayColor:indices = [7]"
+        ),
+        "extent_wrong": curves(more="float3[] extent = [(5, 5, 5), (6, 6, 6)]"),
+        "mesh_index_out_of_range": mesh(indices="[0, 1, 2, 9]"),
+        "mesh_index_negative": mesh(indices="[0, 1, 2, -1]"),
+        "mesh_sizes_negative": mesh(sizes="[-4]"),
+        "mesh_sizes_huge": mesh(sizes="[2147483647]"),
+        "mesh_nan": mesh(points="[(nan, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]"),
+        "mesh_flat": mesh(points="[(0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0, 0)]"),
+        "mesh_unused": mesh(sizes="[3]", indices="[0, 1, 2]"),
+        "mesh_st_count": mesh(
+            more='texCoord2f[] primvars:st = [(0, 0)] (interpolation = "faceVarying")'
+        ),
+        "mesh_xform_type": mesh(
+            more='string xformOp:translate = "up"\nuniform token[] xformOpOrder = ["xformOp:translate"]'
+        ),
+        "mesh_xform_missing": mesh(more='uniform token[] xformOpOrder = ["xformOp:translate"]'),
+        "reference_missing": HEADER + 'def "a" (references = @./missing.usda@) {}\n',
+        "reference_self": HEADER + 'def "a" (references = @./reference_self.usda@</a>) {}\n',
+        "reference_cycle": HEADER + 'def "a" (references = </b>) {}\ndef "b" (references = </a>) {}\n',
+        "payload_missing": HEADER + 'def "a" (payload = @./missing.usdc@) {}\n',
+        "payload_folder": HEADER + 'def "a" (payload = @../usdc@) {}\n',
+        "payload_device": HEADER + 'def "a" (payload = @/dev/zero@) {}\n',
+        "payload_broken": HEADER + 'def "a" (payload = @../usdc/truncated.usdc@) {}\n',
+        "sublayer_missing": HEADER + "(\n subLayers = [@./missing.usda@]\n)\n",
+        "sublayer_self": HEADER + "(\n subLayers = [@./sublayer_self.usda@]\n)\n",
+        "inherits_itself": HEADER + 'def "a" (inherits = </a>) { def "b" (inherits = </a>) {} }\n',
+        "references_multiply": HEADER + laughs,
+        "references_diamonds": HEADER + diamonds,
+    }
+
+
+def write_usda():
+    for name, text in usda().items():
+        data = text if isinstance(text, bytes) else text.encode()
+        Path(f"usda/{name}.usda").write_bytes(data)
+
+
+def sections(data):
+    (toc,) = struct.unpack_from("<Q", data, 16)
+    (count,) = struct.unpack_from("<Q", data, toc)
+    found = {}
+    for i in range(count):
+        name, start, size = struct.unpack_from("<16sQQ", data, toc + 8 + 32 * i)
+        found[name.rstrip(b"\0").decode()] = start
+    return toc, found
+
+
+def write_usdc():
+    data = Path("../reference/curves.usdc").read_bytes()
+    toc, starts = sections(data)
+
+    def write(name, data):
+        Path(f"usdc/{name}.usdc").write_bytes(data)
+
+    def patched(at, number, size=8):
+        return data[:at] + int(number).to_bytes(size, "little") + data[at + size :]
+
+    write("empty", b"")
+    write("magic_only", data[:8])
+    write("header_only", data[:88])
+    write("truncated", data[: len(data) // 2])
+    write("cut_at_the_end", data[:-20])
+    write("no_toc", patched(16, 0))
+    write("toc_outside", patched(16, 1 << 60))
+    write("version_of_the_future", patched(8, 0xFF00, 3))
+    write("version_of_the_past", patched(8, 0x000100, 3))
+    write("sections_many", patched(toc, 1 << 40))
+    for name, start in starts.items():
+        for number in [1 << 33, (1 << 64) - 1]:
+            write(f"{name.lower()}_count_{number}", patched(start, number))
+            write(f"{name.lower()}_second_{number}", patched(start + 8, number))
+    # Array counts stand before the arrays: make each plausible one huge.
+    for at in range(88, min(starts.values()), 24):
+        (number,) = struct.unpack_from("<Q", data, at)
+        if number in (4, 5, 6, 7, 8, 9, 10, 11, 13):
+            write(f"array_at_{at}", patched(at, 1 << 50))
+
+
+def write_npz():
+    def write(name, **arrays):
+        np.savez(f"npz/{name}.npz", **arrays)
+
+    points = np.zeros((4, 3), np.float32)
+    points[:, 2] = range(4)
+    counts = np.array([2, 2], np.uint32)
+    Path("npz/empty.npz").write_bytes(b"")
+    Path("npz/no_zip.npz").write_bytes(b"PK\x03\x04 and then nothing")
+    write("no_arrays")
+    write("no_points", counts=counts)
+    write("no_counts", points=points)
+    write("points_flat", points=points.ravel(), counts=counts)
+    write("points_integer", points=points.astype(int), counts=counts)
+    write("points_fortran", points=np.asfortranarray(points), counts=counts)
+    write("points_objects", points=np.array([None, 1]), counts=counts)
+    write("points_text", points=np.array(["a", "b"]), counts=counts)
+    write("points_nan", points=points * np.nan, counts=counts)
+    write("counts_real", points=points, counts=counts.astype(float))
+    write("counts_too_many", points=points, counts=np.array([2, 200]))
+    write("counts_negative", points=points, counts=np.array([-2, 4]))
+    write("counts_huge", points=points, counts=np.array([2**63 - 1, 2**63 - 1]))
+    write("widths_too_few", points=points, counts=counts, widths=np.ones(3, np.float32))
+    write("groups_too_large", points=points, counts=counts, group=np.array([1, 2**40]))
+    good = Path("npz/points_nan.npz").read_bytes()
+    Path("npz/truncated.npz").write_bytes(good[:200])
+    for name, shape in [
+        ("shape_claims", "(99, 3)"),
+        ("shape_huge", "(1 << 9, 3)"),
+        ("shape_billions", "(999999999999999999, 3)"),
+        ("header_nested", "(" * 40),
+    ]:
+        header = f"{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}\n"
+        start = b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header))
+        with zipfile.ZipFile(f"npz/{name}.npz", "w") as archive:
+            archive.writestr("points.npy", start + header.encode() + points.tobytes())
+            archive.writestr("counts.npy", start + header.encode() + points.tobytes())
+    with zipfile.ZipFile("npz/bomb.npz", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("points.npy", bytes(80_000_000))
+
+
+write_usda()
+write_usdc()
+write_npz()

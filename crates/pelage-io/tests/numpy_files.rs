@@ -1,0 +1,92 @@
+//! `.npz` files as NumPy reads them.
+
+mod support;
+
+use pelage_io::WriteOptions;
+use pelage_strands::{StrandBuffer, StreamInfo};
+use std::path::Path;
+use support::{python, raised, strands, write, write_still};
+
+fn check(body: &str, path: &Path) {
+    let script = format!("import sys, numpy as np\nf = np.load(sys.argv[1])\n{body}");
+    python("numpy", &script, &[path]);
+}
+
+#[test]
+fn arrays_have_their_names_types_shapes_and_values() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.npz");
+    write_still(&path, &strands(30_000));
+    check(
+        r#"
+m = 30000
+counts = 2 + np.arange(m) % 5
+n = counts.sum()
+expected = dict(points=('f4', (n, 3)), counts=('u4', (m,)), widths=('f4', (n,)), colors=('f4', (n, 3)),
+    opacities=('f4', (n,)), normals=('f4', (n, 3)), hair_id=('u8', (m,)), strand_id=('u4', (m,)),
+    root_uv=('f4', (m, 2)), strand_uv=('f4', (m, 2)), group=('u4', (m,)), triangle=('u4', (m,)),
+    barycentric=('f4', (m, 3)), root_rest=('f4', (m, 3)))
+assert f.files == list(expected), f.files
+for name, (kind, shape) in expected.items():
+    assert f[name].dtype == kind and f[name].shape == shape, name
+assert (f['counts'] == counts).all()
+x = np.arange(m, dtype='f4') * np.float32(.01)
+assert (f['points'][:, 0] == np.repeat(x, counts)).all()
+assert (f['hair_id'] == np.arange(m) + 2**40).all() and (f['triangle'] == np.arange(m)).all()
+assert (f['barycentric'] == [.5, .25, .25]).all() and (f['root_rest'][:, 0] == x).all()
+assert (f['normals'] == [1, 0, 0]).all() and (f['opacities'] == 1).all()
+import zipfile
+z = zipfile.ZipFile(sys.argv[1])
+assert z.testzip() is None
+assert {i.date_time for i in z.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+"#,
+        &path,
+    );
+}
+
+#[test]
+fn frames_give_points_and_normals_a_leading_axis() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.npz");
+    let first = strands(40);
+    let info = StreamInfo {
+        frames: vec![1.0, 1.5],
+        ..Default::default()
+    };
+    let frames = [first.clone(), raised(&first, 1.0)];
+    write(&path, &WriteOptions::default(), &info, &frames, 7).unwrap();
+    check(
+        r#"
+n = f['counts'].sum()
+assert f['points'].shape == (2, n, 3) == f['normals'].shape and f['widths'].shape == (n,)
+assert f['frames'].dtype == 'f8' and f['frames'].tolist() == [1, 1.5]
+assert (f['points'][1][:, 1] == f['points'][0][:, 1] + np.float32(1)).all()
+"#,
+        &path,
+    );
+}
+
+#[test]
+fn no_hair_makes_empty_arrays() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.npz");
+    write_still(&path, &StrandBuffer::new());
+    check(
+        "assert f['points'].shape == (0, 3) and f['counts'].shape == (0,) and f['hair_id'].dtype == 'u8'",
+        &path,
+    );
+}
+
+#[test]
+fn attributes_that_strands_lack_are_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.npz");
+    let mut strands = strands(3);
+    strands.colors.clear();
+    strands.group.clear();
+    write_still(&path, &strands);
+    check(
+        "assert 'colors' not in f and 'group' not in f and 'triangle' in f",
+        &path,
+    );
+}

@@ -1,0 +1,45 @@
+//! The command line: arguments in, words and exit codes out.
+//!
+//! Exit codes: 0 done; 1 something failed, said in words on standard error; 2 the
+//! command line itself is wrong; 3 `inspect` found something wrong with a file.
+
+mod args;
+mod demo;
+mod generate;
+mod init;
+mod inspect;
+mod pages;
+mod picture;
+mod progress;
+mod say;
+mod stats;
+
+use args::{Cli, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+/// `inspect` found faults.
+const FAULTS_FOUND: u8 = 3;
+
+/// Runs the command that the process was started with.
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let say = say::Say::new(cli.quiet);
+    let done = match cli.command {
+        Command::Demo(args) => demo::run(&args, &say),
+        Command::Init(args) => init::run(&args, &say),
+        Command::Generate(args) => generate::run(&args, &say),
+        Command::Render(args) => picture::run(&args, &say),
+        Command::Inspect(args) => inspect::run(&args, &say),
+        Command::Schema => pages::schema(),
+        Command::Completions { shell } => pages::completions(shell),
+        Command::Man { folder } => pages::man(folder.as_deref(), &say),
+    };
+    match done {
+        Ok(code) => code,
+        Err(error) => {
+            say.error(&error);
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Words for people: results on standard output, everything else on standard error.
+
+use std::fmt::Display;
+use std::io::Write;
+use std::time::Duration;
+
+/// Prints, unless it was asked to be quiet.
+#[derive(Clone, Copy, Debug)]
+pub struct Say {
+    quiet: bool,
+}
+
+impl Say {
+    /// Prints errors only where `quiet`.
+    pub fn new(quiet: bool) -> Self {
+        Self { quiet }
+    }
+
+    /// Whether only errors are printed.
+    pub fn is_quiet(self) -> bool {
+        self.quiet
+    }
+
+    /// A line of what was done. A closed pipe is no reason to fail.
+    pub fn line(self, text: impl Display) {
+        if !self.quiet {
+            let _ = writeln!(std::io::stdout().lock(), "{text}");
+        }
+    }
+
+    /// Something worth knowing that is no error.
+    pub fn note(self, text: impl Display) {
+        if !self.quiet {
+            let _ = writeln!(std::io::stderr().lock(), "note: {text}");
+        }
+    }
+
+    /// What failed, with the reasons below it.
+    pub fn error(self, error: &anyhow::Error) {
+        let mut stderr = std::io::stderr().lock();
+        let _ = writeln!(stderr, "error: {error}");
+        let mut said = error.to_string();
+        for cause in error.chain().skip(1).map(|c| c.to_string()) {
+            if !said.contains(&cause) {
+                let _ = writeln!(stderr, "  because: {cause}");
+            }
+            said = cause;
+        }
+    }
+}
+
+/// A number with its thousands set apart: 200,000.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A duration as a person would say it.
+pub fn spent(time: Duration) -> String {
+    match time.as_secs_f64() {
+        s if s < 0.1 => format!("{:.0} ms", s * 1e3),
+        s if s < 100.0 => format!("{s:.1} s"),
+        s => format!("{:.0} min {:02.0} s", (s / 60.0).floor(), s % 60.0),
+    }
+}
+
+/// A number of bytes in the largest fitting unit.
+pub fn bytes(count: u64) -> String {
+    let mut value = count as f64;
+    for unit in ["bytes", "kB", "MB", "GB"] {
+        if value < 1000.0 {
+            return format!("{value:.0} {unit}");
+        }
+        value /= 1000.0;
+    }
+    format!("{value:.1} TB")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_as_people_write_them() {
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(200_000), "200,000");
+        assert_eq!(grouped(1_234_567), "1,234,567");
+        assert_eq!(bytes(42_400_000), "42 MB");
+        assert_eq!(spent(Duration::from_millis(1234)), "1.2 s");
+        assert_eq!(spent(Duration::from_secs(125)), "2 min 05 s");
+    }
+}

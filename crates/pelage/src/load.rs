@@ -1,0 +1,138 @@
+//! From the path of a recipe to a plan: every file it names is read here.
+
+use crate::poses::{PoseFiles, PoseSource};
+use pelage_curves::Vec3;
+use pelage_groom::recipe::{GuideSource, Recipe, RecipeError, Up};
+use pelage_groom::{Groom, Images, Plan, Request};
+use pelage_io::{
+    MeshFile, ReadError, read_curves, read_image, read_mesh, strands_through_vertices,
+};
+use pelage_strands::{StreamInfo, UpAxis};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A recipe with everything it names, compiled.
+#[derive(Debug)]
+pub struct Loaded {
+    /// The recipe.
+    pub recipe: Recipe,
+    /// The plan.
+    pub plan: Plan,
+    /// The poses of the surface.
+    pub poses: PoseFiles,
+    /// Up axis and unit, from the recipe or else the mesh.
+    pub info: StreamInfo,
+}
+
+impl Loaded {
+    /// A request for `hairs` on `threads` threads, as a still.
+    pub fn request(&self, hairs: Range<u64>, threads: usize) -> Request {
+        Request {
+            hairs,
+            threads,
+            info: self.info.clone(),
+        }
+    }
+}
+
+/// Reads the recipe at `path` and all that it names, and compiles it.
+///
+/// An error tells the place in the recipe of whatever is wrong, in it or in a file it
+/// names.
+pub fn load(path: &Path) -> Result<Loaded, RecipeError> {
+    load_with(Recipe::load(path)?)
+}
+
+/// As [`load`], from a recipe that was read (and maybe changed) before.
+pub fn load_with(recipe: Recipe) -> Result<Loaded, RecipeError> {
+    let at = |key: &str| {
+        let recipe = recipe.clone();
+        let key = key.to_owned();
+        move |error: ReadError| recipe.error_at(&key, error.to_string())
+    };
+    let rest = read_mesh(&recipe.surface.mesh.resolved, None).map_err(at("surface.mesh"))?;
+    let source = match &recipe.surface.posed {
+        None => PoseSource::Rest,
+        Some(posed) => PoseSource::new(&posed.resolved).map_err(at("surface.posed"))?,
+    };
+    let keep_file_normals = keep_file_normals(&rest, &source);
+    let guides = match recipe.guides.source() {
+        Some(GuideSource::Curves(file)) => {
+            read_guides(&file.resolved).map_err(at("guides.curves"))?
+        }
+        _ => Vec::new(),
+    };
+    let info = stream_info(&recipe, &rest);
+    let images = read_images(&recipe)?;
+    let groom = Groom {
+        recipe: recipe.clone(),
+        mesh: rest.mesh,
+        keep_file_normals,
+        images,
+        guides,
+    };
+    let plan = Plan::new(groom).map_err(|e| recipe.error_at(e.key(), e.to_string()))?;
+    Ok(Loaded {
+        poses: PoseFiles::new(source, keep_file_normals),
+        recipe,
+        plan,
+        info,
+    })
+}
+
+/// Normals of a file serve only where rest and pose both have them (law 4). A pose
+/// that cannot be read yet is looked at again, and reported, when its frame comes.
+fn keep_file_normals(rest: &MeshFile, source: &PoseSource) -> bool {
+    let first = match source {
+        PoseSource::Rest => return true,
+        PoseSource::Sequence { .. } => return false,
+        PoseSource::File(_) => 0.0,
+        PoseSource::Samples(path) => pelage_io::mesh_frames(path)
+            .ok()
+            .and_then(|f| f.first().copied())
+            .unwrap_or(0.0),
+    };
+    let has = |mesh: &pelage_surface::PolygonMesh| !mesh.corner_normals.is_empty();
+    let posed = source.polygons(first).ok().flatten();
+    has(&rest.mesh) && posed.is_some_and(|mesh| has(&mesh))
+}
+
+fn read_guides(path: &Path) -> Result<Vec<Vec<Vec3>>, ReadError> {
+    let file = read_curves(path, None)?;
+    let mut guides = Vec::new();
+    for set in &file.sets {
+        let strands = strands_through_vertices(set);
+        guides.extend((0..strands.len()).map(|i| strands.strand_points(i).to_vec()));
+    }
+    Ok(guides)
+}
+
+fn read_images(recipe: &Recipe) -> Result<Images, RecipeError> {
+    let mut images = Images::new();
+    for (key, used) in recipe.maps() {
+        let path = &used.path.resolved;
+        if !images.contains_key(path) {
+            let image = read_image(path).map_err(|e| recipe.error_at(&key, e.to_string()))?;
+            images.insert(path.clone(), Arc::new(image));
+        }
+    }
+    Ok(images)
+}
+
+fn stream_info(recipe: &Recipe, rest: &MeshFile) -> StreamInfo {
+    let standard = StreamInfo::default();
+    StreamInfo {
+        up_axis: match recipe.surface.up {
+            Some(Up::Y) => UpAxis::Y,
+            Some(Up::Z) => UpAxis::Z,
+            None => rest.up_axis.unwrap_or(standard.up_axis),
+        },
+        meters_per_unit: recipe
+            .surface
+            .meters_per_unit
+            .or(rest.meters_per_unit)
+            .unwrap_or(standard.meters_per_unit),
+        ..standard
+    }
+}

@@ -1,0 +1,10 @@
+//! .hair files as curves.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use std::path::Path;
+
+fuzz_target!(|bytes: &[u8]| {
+    let _ = pelage_io::parse_hair(bytes, Path::new("fuzz.hair"));
+});
