@@ -64,9 +64,8 @@ impl Picture {
         let i = y * SIZE + x;
         if z > self.depth[i] {
             self.depth[i] = z;
-            for c in 0..3 {
-                self.pixels[i * 3 + c] = (color[c].clamp(0.0, 1.0) * 255.0) as u8;
-            }
+            let codes = color.map(|c| (c.clamp(0.0, 1.0) * 255.0) as u8);
+            self.pixels[i * 3..i * 3 + 3].copy_from_slice(&codes);
         }
     }
 

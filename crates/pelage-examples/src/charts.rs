@@ -42,9 +42,9 @@ pub fn across(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
 }
 
 /// Replaces labels that most neighbours do not share, a few times over.
-pub fn smooth_labels(beyond: &[[u32; 3]], labels: &mut Vec<u8>, rounds: usize) {
+pub fn smooth_labels(beyond: &[[u32; 3]], labels: &mut [u8], rounds: usize) {
     for _ in 0..rounds {
-        let old = labels.clone();
+        let old = labels.to_vec();
         for (t, label) in labels.iter_mut().enumerate() {
             let ring = beyond[t].map(|n| {
                 if n == u32::MAX {

@@ -1,6 +1,6 @@
 //! What an example is, and the list of them.
 
-use crate::{animal, ball, grass};
+use crate::{animal, ball, grass, head};
 use pelage_strands::StrandBuffer;
 use pelage_surface::{ImageMap, PolygonMesh};
 
@@ -26,7 +26,7 @@ pub struct Example {
 
 /// The examples there are, simplest first.
 pub fn names() -> &'static [&'static str] {
-    &["ball", "grass", "animal"]
+    &["ball", "grass", "head", "animal"]
 }
 
 /// Makes the example called `name`; `None` where there is none of that name.
@@ -43,6 +43,7 @@ pub fn example(name: &str) -> Option<Example> {
     match name {
         "ball" => Some(ball::example()),
         "grass" => Some(grass::example()),
+        "head" => Some(head::example(&head::Detail::FULL)),
         "animal" => Some(animal::example(&animal::Detail::FULL)),
         _ => None,
     }

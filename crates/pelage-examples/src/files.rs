@@ -12,7 +12,8 @@ use std::path::{Path, PathBuf};
 /// Each file is written beside its place and renamed into it, so that a reader
 /// never meets half a file; the recipe, which names the others, comes last.
 pub fn write(example: &Example, folder: &Path) -> io::Result<Vec<PathBuf>> {
-    std::fs::create_dir_all(folder)?;
+    std::fs::create_dir_all(folder)
+        .map_err(|e| io::Error::new(e.kind(), format!("{}: {e}", folder.display())))?;
     let mut written = Vec::new();
     let mut put = |name: &str, bytes: &[u8]| -> io::Result<()> {
         let path = folder.join(name);

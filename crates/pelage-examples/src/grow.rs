@@ -86,7 +86,7 @@ fn guide<P: Copy + PartialEq>(
 }
 
 /// Roots and vertices as strands.
-fn strands(roots: &[Root], guides: &[Vec<DVec3>]) -> StrandBuffer {
+pub fn strands(roots: &[Root], guides: &[Vec<DVec3>]) -> StrandBuffer {
     let mut out = StrandBuffer::new();
     for (i, (root, points)) in roots.iter().zip(guides).enumerate() {
         let f = |p: &DVec3| p.as_vec3().to_array();

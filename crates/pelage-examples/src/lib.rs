@@ -13,6 +13,7 @@ mod flatten;
 mod grass;
 mod grow;
 mod hash;
+mod head;
 #[cfg(test)]
 mod laws;
 mod lift;

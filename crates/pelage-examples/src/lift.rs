@@ -44,6 +44,14 @@ pub fn lift_overlaps(chart: &Chart, uv: &[DVec2]) -> Option<(Chart, Vec<DVec2>, 
     Some((kept, kept_uv, pieces))
 }
 
+impl Chart {
+    /// The chart's triangles in two charts.
+    pub fn halves(&self) -> [Chart; 2] {
+        let middle = self.triangles.len() / 2;
+        [part(self, |t| t < middle).0, part(self, |t| t >= middle).0]
+    }
+}
+
 /// 0 for triangles that stay, from 1 on for each connected piece that is lifted.
 fn pieces(chart: &Chart, lifted: &[bool]) -> Vec<usize> {
     let mut around = vec![Vec::new(); chart.vertices.len()];

@@ -51,7 +51,8 @@ impl Model {
                     flat.push(kept_uv);
                     waiting.extend(pieces);
                 }
-                _ => {
+                Some(_) => waiting.extend(chart.halves()),
+                None => {
                     charts.push(chart);
                     flat.push(uv);
                 }

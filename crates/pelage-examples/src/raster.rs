@@ -94,6 +94,40 @@ impl Canvas {
         for _ in 0..BEYOND {
             spread(self.size, &mut texels);
         }
+        self.coded(empty, texels)
+    }
+
+    /// As [`Canvas::paint`], but colours are never mixed: beyond the charts each
+    /// texel has that of a painted neighbour.
+    pub fn flood<T, const N: usize>(
+        &self,
+        empty: [f64; N],
+        looks: &[Option<T>],
+        paint: impl Fn(&T) -> [f64; N],
+    ) -> ImageMap {
+        let mut texels: Vec<Option<[f64; N]>> =
+            looks.iter().map(|l| l.as_ref().map(&paint)).collect();
+        for _ in 0..BEYOND {
+            let old = texels.clone();
+            for (i, texel) in texels
+                .iter_mut()
+                .enumerate()
+                .filter(|(i, _)| old[*i].is_none())
+            {
+                let (x, y) = (i % self.size, i / self.size);
+                let beside = [
+                    (x > 0).then(|| i - 1),
+                    (x + 1 < self.size).then_some(i + 1),
+                    (y > 0).then(|| i - self.size),
+                    (y + 1 < self.size).then_some(i + self.size),
+                ];
+                *texel = beside.into_iter().flatten().find_map(|n| old[n]);
+            }
+        }
+        self.coded(empty, texels)
+    }
+
+    fn coded<const N: usize>(&self, empty: [f64; N], texels: Vec<Option<[f64; N]>>) -> ImageMap {
         let codes = texels
             .iter()
             .flat_map(|t| t.unwrap_or(empty))
@@ -116,8 +150,8 @@ pub fn image(width: u32, height: u32, channels: u32, texels: Vec<f32>) -> ImageM
 }
 
 /// Gives empty texels the mean of their painted neighbours.
-fn spread<const N: usize>(size: usize, texels: &mut Vec<Option<[f64; N]>>) {
-    let old = texels.clone();
+fn spread<const N: usize>(size: usize, texels: &mut [Option<[f64; N]>]) {
+    let old = texels.to_vec();
     for y in 0..size {
         for x in 0..size {
             if old[y * size + x].is_some() {

@@ -186,7 +186,8 @@ pub fn model(body: &Solid<Part>, step: f64) -> Model {
     let slits: Vec<_> = centers.iter().map(|&p| slit_side(p)).collect();
     let pelt = labels.clone();
     let cut = |a: usize, b: usize| {
-        if !matches!(pelt[a], label::PELT | label::LEG | label::TAIL) || !(below[a] && below[b]) {
+        let furred = matches!(pelt[a], label::PELT | label::LEG | label::TAIL);
+        if !(furred && below[a] && below[b]) {
             return false;
         }
         let midline = (centers[a].x > 0.0) != (centers[b].x > 0.0);

@@ -94,7 +94,7 @@ pub fn up_the_muzzle(p: DVec3) -> f64 {
 pub fn along_tail(p: DVec3) -> f64 {
     let mut best = (f64::MAX, 0.0);
     let mut walked = 0.0;
-    let total: f64 = TAIL.windows(2).map(|s| length(s)).sum();
+    let total: f64 = TAIL.windows(2).map(length).sum();
     for s in TAIL.windows(2) {
         let (a, b) = (DVec3::from(s[0].0), DVec3::from(s[1].0));
         let q = segment_nearest(p, a, b);

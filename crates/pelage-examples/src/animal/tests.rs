@@ -1,44 +1,54 @@
 use super::*;
 use crate::laws;
+use crate::model::Model;
+use std::sync::OnceLock;
 
-/// A smaller cub for what does not depend on its size.
+/// The full cub, made once for all tests.
+fn cub() -> &'static (Solid<Part>, Model) {
+    static CUB: OnceLock<(Solid<Part>, Model)> = OnceLock::new();
+    CUB.get_or_init(|| {
+        let body = shape::body();
+        let model = pelt::model(&body, Detail::FULL.step);
+        (body, model)
+    })
+}
+
+/// A coarse cub for what does not depend on its size.
 const SMALL: Detail = Detail {
-    step: Detail::FULL.step,
+    step: 0.02,
     texels: 256,
     guides: 150,
 };
 
 #[test]
 fn the_cub_is_closed_manifold_and_well_shaped() {
-    let mesh = pelt::model(&shape::body(), Detail::FULL.step).mesh;
-    laws::assert_closed_manifold(&mesh);
-    laws::assert_well_shaped(&mesh, 0.1);
+    let mesh = &cub().1.mesh;
+    laws::assert_closed_manifold(mesh);
+    laws::assert_well_shaped(mesh, 0.1);
     let count = mesh.triangles.len();
     assert!((38_000..45_000).contains(&count), "{count} triangles");
 }
 
 #[test]
 fn the_pelt_lies_flat_without_overlaps() {
-    let model = pelt::model(&shape::body(), Detail::FULL.step);
-    laws::assert_atlas(&model);
-    let (_, mean) = laws::stretch(&model);
+    let model = &cub().1;
+    laws::assert_atlas(model);
+    let (_, mean) = laws::stretch(model);
     assert!(mean < 1.35, "mean stretch {mean}");
 }
 
 #[test]
 fn guides_start_on_the_skin_and_stay_outside() {
-    let body = shape::body();
-    let model = pelt::model(&body, Detail::FULL.step);
-    let guides = guides::guides(&body, &model, Detail::FULL.guides);
+    let (body, model) = cub();
+    let guides = guides::guides(body, model, Detail::FULL.guides);
     assert!((1000..=1500).contains(&guides.len()), "{}", guides.len());
-    laws::assert_guides(&body, &model, &guides, guides::SEGMENTS + 1);
+    laws::assert_guides(body, model, &guides, guides::SEGMENTS + 1);
 }
 
 #[test]
 fn eyes_nose_and_soles_grow_nothing() {
-    let body = shape::body();
-    let model = pelt::model(&body, SMALL.step);
-    let maps = maps::maps(&body, &model, SMALL.texels);
+    let (body, model) = cub();
+    let maps = maps::maps(body, model, SMALL.texels);
     let density = &maps.iter().find(|m| m.0 == "density.png").unwrap().1;
     for (uv, &label) in model.uvs.iter().zip(&model.labels) {
         if label < pelt::label::SOLE {
