@@ -1,5 +1,8 @@
 //! The eight laws of the design (ARCHITECTURE.md), each as a test.
 
+// Clippy's exception for tests does not reach the helpers of an integration test.
+#![allow(clippy::unwrap_used)]
+
 mod fixture;
 
 use fixture::{Fixture, collect, moved, strands};
