@@ -91,6 +91,14 @@ pub enum PlanError {
         /// Its colour in the map.
         color: String,
     },
+    /// Hairs of more segments than can be written.
+    #[error("{found} segments; a hair has at most {limit}")]
+    TooManySegments {
+        /// Segments asked for.
+        found: u32,
+        /// How many are allowed.
+        limit: u32,
+    },
     /// A map of groups that is no map of groups.
     #[error(
         "holds more than {limit} colours; groups need flat colours, \
@@ -114,6 +122,7 @@ impl PlanError {
             | PlanError::FarGuides { .. }
             | PlanError::GuideNotFinite { .. }
             | PlanError::GuideTooShort { .. } => "guides",
+            PlanError::TooManySegments { .. } => "groups.segments",
             PlanError::GroupWithoutGuides { .. } | PlanError::TooManyGroups { .. } => "groups.map",
         }
     }

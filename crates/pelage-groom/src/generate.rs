@@ -16,9 +16,12 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
 
-/// Hairs in a chunk: its arrays (some 300 KB at six vertices a hair) stay in a core's
-/// second-level cache. Fewer cost more hand-overs, more fall out of the cache.
+/// Most hairs in a chunk: its arrays (some 300 KB at six vertices a hair) stay in a
+/// core's second-level cache. Fewer cost more hand-overs, more fall out of the cache.
 const CHUNK: u64 = 1024;
+
+/// Most vertices in a chunk, so that hairs of very many vertices take no more memory.
+const CHUNK_VERTICES: u64 = 16_384;
 
 /// What to generate.
 #[derive(Clone, Debug)]
@@ -94,6 +97,7 @@ pub fn generate(
         let mut run = Run {
             plan,
             hairs: hairs.clone(),
+            chunk: (CHUNK_VERTICES / plan.most_vertices()).clamp(1, CHUNK),
             pose: pose.as_deref(),
             before: total * index as u64,
             report: Report {
@@ -148,6 +152,8 @@ impl Worker {
 struct Run<'a> {
     plan: &'a Plan,
     hairs: Range<u64>,
+    /// Hairs in a chunk.
+    chunk: u64,
     pose: Option<&'a Mesh>,
     /// Hairs of the frames before.
     before: u64,
@@ -159,12 +165,12 @@ impl Run<'_> {
         self.hairs
             .end
             .saturating_sub(self.hairs.start)
-            .div_ceil(CHUNK)
+            .div_ceil(self.chunk)
     }
 
-    fn hairs_of(hairs: &Range<u64>, chunk: u64) -> Range<u64> {
-        let start = hairs.start + chunk * CHUNK;
-        start..(start + CHUNK).min(hairs.end)
+    fn hairs_of(hairs: &Range<u64>, each: u64, number: u64) -> Range<u64> {
+        let start = hairs.start + number * each;
+        start..(start + each).min(hairs.end)
     }
 
     fn alone(
@@ -174,7 +180,7 @@ impl Run<'_> {
     ) -> Result<(), GenerateError> {
         let (mut worker, mut chunk) = (Worker::default(), Chunk::default());
         for number in 0..self.chunks() {
-            let hairs = Self::hairs_of(&self.hairs, number);
+            let hairs = Self::hairs_of(&self.hairs, self.chunk, number);
             worker.make(self.plan, hairs, self.pose, &mut chunk);
             self.take(number, &chunk, sink, progress)?;
         }
@@ -187,7 +193,8 @@ impl Run<'_> {
         sink: &mut dyn Sink,
         progress: &mut dyn FnMut(u64) -> bool,
     ) -> Result<(), GenerateError> {
-        let (plan, pose, hairs, chunks) = (self.plan, self.pose, self.hairs.clone(), self.chunks());
+        let (plan, pose, hairs) = (self.plan, self.pose, self.hairs.clone());
+        let (each, chunks) = (self.chunk, self.chunks());
         let next = AtomicU64::new(0);
         let (give_empty, take_empty) = mpsc::channel::<Chunk>();
         let (give_full, take_full) = mpsc::channel::<(u64, Chunk)>();
@@ -216,7 +223,7 @@ impl Run<'_> {
                         if number >= chunks {
                             return;
                         }
-                        worker.make(plan, Self::hairs_of(hairs, number), pose, &mut chunk);
+                        worker.make(plan, Self::hairs_of(hairs, each, number), pose, &mut chunk);
                         if give_full.send((number, chunk)).is_err() {
                             return;
                         }
@@ -260,7 +267,7 @@ impl Run<'_> {
         self.report.strands += chunk.strands.len() as u64;
         self.report.vertices += chunk.strands.points.len() as u64;
         self.report.dropped.add(&chunk.dropped);
-        let done = Self::hairs_of(&self.hairs, number).end - self.hairs.start;
+        let done = Self::hairs_of(&self.hairs, self.chunk, number).end - self.hairs.start;
         if progress(self.before + done) {
             Ok(())
         } else {

@@ -63,7 +63,7 @@ impl Plan {
             _ => Vec::new(),
         };
         let mut plan = Self {
-            groups: groups(recipe, &maker, &all)?,
+            groups: refuse_too_long(groups(recipe, &maker, &all)?)?,
             guides: Vec::new(),
             method: recipe.interpolation.method,
             wanted: recipe.interpolation.guides as usize,
@@ -151,6 +151,12 @@ impl Plan {
         &self.rest
     }
 
+    /// Vertices of the longest hairs.
+    pub(crate) fn most_vertices(&self) -> u64 {
+        let segments = self.groups.all().iter().map(|g| g.segments).max();
+        segments.unwrap_or(1) as u64 + 1
+    }
+
     /// Number of guides.
     pub fn guide_count(&self) -> usize {
         self.guide_count
@@ -226,6 +232,19 @@ fn refuse_negative(map: &pelage_surface::ImageMap) -> Result<(), PlanError> {
             x: (texel % map.width() as usize) as u32,
             y: (texel / map.width() as usize) as u32,
             value: map.texels()[texel],
+        }),
+    }
+}
+
+/// Most segments of a hair: what the formats that count them in 16 bits can hold.
+const MOST_SEGMENTS: u32 = u16::MAX as u32;
+
+fn refuse_too_long(groups: Groups) -> Result<Groups, PlanError> {
+    match groups.all().iter().find(|g| g.segments > MOST_SEGMENTS) {
+        None => Ok(groups),
+        Some(group) => Err(PlanError::TooManySegments {
+            found: group.segments,
+            limit: MOST_SEGMENTS,
         }),
     }
 }

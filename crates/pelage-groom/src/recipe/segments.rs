@@ -17,8 +17,7 @@ pub enum Segments {
     /// One number for all.
     All(u32),
     /// A number for each colour of the group map, by the 8-bit codes of the
-    /// image, red, green, blue. A colour of the image that is not listed is an
-    /// error when the map is read.
+    /// image, red, green, blue. A texel belongs to the listed colour nearest to it.
     ByColor(BTreeMap<[u8; 3], u32>),
 }
 
