@@ -8,8 +8,12 @@ use crate::charts::Chart;
 use crate::raster::canvas;
 use glam::DVec2;
 
-/// Texels a side in which overlaps are sought, over the chart's own box.
-const TEXELS: usize = 2048;
+/// Texels a side in which overlaps are sought, over the chart's own box: about as
+/// many a triangle in small charts as in a large one.
+fn texels(chart: &Chart) -> usize {
+    let side = 15.0 * (chart.triangles.len() as f64).sqrt();
+    (side as usize).clamp(128, 2048)
+}
 
 /// Splits `chart` into what stays (with the coordinates it has) and the pieces
 /// lifted off it.
@@ -20,7 +24,7 @@ pub fn lift_overlaps(chart: &Chart, uv: &[DVec2]) -> Option<(Chart, Vec<DVec2>, 
     let corners: Vec<[DVec2; 3]> = (chart.corners.iter())
         .map(|c| c.map(|v| (uv[v as usize] - low) * scale))
         .collect();
-    let overlapping = canvas(&corners, TEXELS).overlapping;
+    let overlapping = canvas(&corners, texels(chart)).overlapping;
     if overlapping.is_empty() {
         return None;
     }

@@ -79,13 +79,13 @@ fn growth(body: &Solid<Part>, root: &Root) -> Growth {
     let (p, n) = (root.position, root.normal);
     let s = shares(body, p);
     let length = length(&s, p, n);
-    let lift = s.mix(0.36, 0.42, 0.34, 0.30, 0.24, 0.44);
+    let lift = s.mix(0.48, 0.55, 0.38, 0.32, 0.32, 0.60);
     Growth {
         length: length * (1.0 + 0.12 * fractal(51, p * 30.0)),
         segments: SEGMENTS,
         lift,
         bend: 0.55,
-        clearance: 0.14,
+        clearance: 0.20,
     }
 }
 
@@ -93,11 +93,11 @@ fn length(s: &Shares, p: DVec3, n: DVec3) -> f64 {
     let torso = 0.058 + 0.022 * belly(p, n) + 0.030 * chest(p, n);
     let muzzle = smoothstep(0.06, 0.22, p.distance(NOSE.into()));
     let cheek = smoothstep(0.06, 0.12, p.x.abs()) * smoothstep(0.70, 0.62, p.y);
-    let face = mix_between(0.012, 0.032, muzzle) + 0.034 * cheek;
-    let face = face * (0.55 + 0.45 * smoothstep(0.03, 0.09, from_eye(p)));
-    let leg = mix_between(0.014, 0.044, smoothstep(0.07, 0.24, p.y));
+    let face = mix_between(0.019, 0.040, muzzle) + 0.034 * cheek;
+    let face = face * (0.75 + 0.25 * smoothstep(0.03, 0.08, from_eye(p)));
+    let leg = mix_between(0.022, 0.048, smoothstep(0.07, 0.24, p.y));
     let along = along_tail(p);
     let tail = mix_between(0.060, 0.105, smoothstep(0.05, 0.6, along));
-    let ear = mix_between(0.030, 0.016, smoothstep(0.82, 0.90, p.y));
+    let ear = mix_between(0.034, 0.022, smoothstep(0.82, 0.90, p.y));
     s.mix(torso, 0.078, face, ear, leg, tail)
 }

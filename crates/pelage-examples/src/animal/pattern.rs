@@ -60,10 +60,10 @@ impl Spot {
         }
         let eyes = smoothstep(EYE_RADIUS + 0.004, EYE_RADIUS + 0.016, from_eye(self.p));
         let nose = smoothstep(0.022, 0.040, from_nose(self.p));
-        let ear = 1.0 - 0.7 * inner_ear(self.p, self.normal);
+        let ear = 1.0 - 0.4 * inner_ear(self.p, self.normal);
         let pads = smoothstep(0.004, 0.016, self.p.y);
         let lips = 1.0 - 0.65 * self.lips();
-        let part = self.shares.mix(0.80, 1.0, 0.95, 0.85, 0.80, 1.0);
+        let part = self.shares.mix(0.66, 0.80, 1.0, 0.90, 0.80, 0.85);
         part * eyes * nose * ear * pads * lips
     }
 
@@ -79,8 +79,8 @@ impl Spot {
         if self.is_bare() {
             return 0.0;
         }
-        let eyes = 0.25 + 0.75 * smoothstep(0.02, 0.065, from_eye(self.p) - EYE_RADIUS);
-        let nose = 0.35 + 0.65 * smoothstep(0.02, 0.09, from_nose(self.p));
+        let eyes = 0.55 + 0.45 * smoothstep(0.01, 0.05, from_eye(self.p) - EYE_RADIUS);
+        let nose = 0.55 + 0.45 * smoothstep(0.02, 0.08, from_nose(self.p));
         let ear = 1.0 - 0.35 * inner_ear(self.p, self.normal);
         let lips = 1.0 - 0.5 * self.lips();
         let tufts = 0.90 + 0.10 * fractal(21, self.p * 24.0);

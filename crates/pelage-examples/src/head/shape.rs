@@ -35,7 +35,7 @@ pub fn bust() -> Solid<Part> {
     for left in [true, false] {
         ear(s, left);
     }
-    solid.floor = Some((BASE, 0.006));
+    solid.floor = Some((BASE, 0.020));
     solid
 }
 
