@@ -206,7 +206,7 @@ def main():
     packed("packed.usdc")
     expected = {"meshes": {}, "curves": {}}
     stage = meshes("meshes.usda")
-    stage.Export("meshes.usdc")
+    stage.Export("meshes.usdc", addSourceFileComment=False)
     for time in TIMES:
         expected["meshes"][str(time)] = {
             str(prim.GetPath()): read_mesh(prim, time)
@@ -214,7 +214,7 @@ def main():
             if prim.IsA(UsdGeom.Mesh) and prim.GetName() != "proxy"
         }
     stage = curves("curves.usda")
-    stage.Export("curves.usdc")
+    stage.Export("curves.usdc", addSourceFileComment=False)
     for time in [None, 1.5]:
         expected["curves"][str(time)] = {
             str(prim.GetPath()): read_curves(prim, time)
