@@ -129,14 +129,14 @@ pub struct GenerateArgs {
     /// Also render a picture of the (first frame's) hair on its surface.
     #[arg(long, value_hint = ValueHint::FilePath, value_name = "PNG")]
     pub picture: Option<PathBuf>,
-    #[command(flatten)]
-    pub view: ViewArgs,
     /// Write counts, times by stage and cost a hair as JSON; `-` prints them.
     #[arg(long, value_hint = ValueHint::FilePath, value_name = "JSON")]
     pub stats: Option<PathBuf>,
     /// Write curve normals to USD and RIB: readers then draw flat ribbons, not tubes.
     #[arg(long)]
     pub ribbons: bool,
+    #[command(flatten)]
+    pub view: ViewArgs,
 }
 
 const GENERATE_EXAMPLES: &str = "\
@@ -164,11 +164,11 @@ pub struct RenderArgs {
     /// The time to show, where the file has several.
     #[arg(long, value_name = "F", allow_negative_numbers = true)]
     pub frame: Option<f64>,
-    #[command(flatten)]
-    pub view: ViewArgs,
     /// Threads to use; 0 is one a core.
     #[arg(long, default_value_t = 0, value_name = "N")]
     pub threads: usize,
+    #[command(flatten)]
+    pub view: ViewArgs,
 }
 
 /// Camera and quality of a picture.

@@ -3,7 +3,7 @@
 use pelage::StrandBuffer;
 use pelage::io::{read_curves, read_obj_mesh, strands_through_vertices};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 use tempfile::TempDir;
 
 /// A folder of its own for a test.
@@ -86,6 +86,16 @@ impl Folder {
         let file = read_curves(self.path(name).as_ref(), None).unwrap();
         strands_through_vertices(&file.sets[0])
     }
+}
+
+/// Starts the command without waiting for it.
+pub fn start(arguments: &[&str]) -> Child {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pelage"));
+    command
+        .args(arguments)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    command.spawn().unwrap()
 }
 
 fn run(arguments: &[&str]) -> Output {

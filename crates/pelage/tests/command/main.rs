@@ -134,6 +134,35 @@ fn a_failed_run_leaves_the_old_file_whole() {
 }
 
 #[test]
+fn a_killed_run_leaves_the_old_file_whole() {
+    let folder = Folder::with_ball();
+    folder.write("hair.usdc", "old");
+    let files = || std::fs::read_dir(folder.path("")).unwrap().count();
+    let before = files();
+    let (recipe, output) = (folder.path("groom.toml"), folder.path("hair.usdc"));
+    // Far more hairs than can be written before the kill; the disk gets some of them.
+    let arguments = [
+        "generate",
+        &recipe,
+        "-o",
+        &output,
+        "--count",
+        "1_000_000_000",
+    ];
+    let mut run = groom::start(&arguments);
+    while files() == before {
+        assert!(
+            run.try_wait().unwrap().is_none(),
+            "ended before it began to write"
+        );
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    run.kill().unwrap();
+    run.wait().unwrap();
+    assert_eq!(folder.bytes("hair.usdc"), b"old");
+}
+
+#[test]
 fn mistakes_are_answered_in_words() {
     let folder = Folder::with_ball();
     let recipe = folder.path("groom.toml");
