@@ -1,12 +1,14 @@
 //! Checks a `.usda` file before `openusd` parses it: its parser calls itself for
-//! every level of prims and dictionaries, so the levels are counted first.
+//! every level of prims and dictionaries, so the levels are counted first. It also never
+//! ends on some files whose strings are not closed, so those are refused.
 
 use super::cursor::Broken;
 
 /// Levels of `{`, `(` and `[`; a prim is one level, its arrays one or two more.
 const MAX_DEPTH: u32 = 128;
 
-/// Fails where brackets nest too deeply for the parser's stack.
+/// Fails where brackets nest too deeply for the parser's stack, and where a string is
+/// not closed on its line.
 pub(super) fn check(bytes: &[u8]) -> Result<(), Broken> {
     let mut depth = 0u32;
     let mut i = 0;
@@ -15,7 +17,7 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), Broken> {
             b'{' | b'(' | b'[' => {
                 depth += 1;
                 if depth > MAX_DEPTH {
-                    let line = 1 + bytes[..i].iter().filter(|&&c| c == b'\n').count();
+                    let line = line_of(bytes, i);
                     return Err(Broken(format!(
                         "its brackets nest deeper than {MAX_DEPTH} in line {line}"
                     )));
@@ -27,11 +29,18 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), Broken> {
                 i += 1;
             }
             b'#' => i = after(bytes, i, b"\n"),
+            // Names of files may hold quotes.
+            b'@' => i = after_string(bytes, i + 1, b'@').unwrap_or(i + 1),
             quote @ (b'"' | b'\'') => {
                 let three = [quote; 3];
                 i = match bytes[i..].starts_with(&three) {
                     true => after(bytes, i + 3, &three),
-                    false => after_string(bytes, i + 1, quote),
+                    false => after_string(bytes, i + 1, quote).ok_or_else(|| {
+                        Broken(format!(
+                            "a string is not closed in line {}",
+                            line_of(bytes, i)
+                        ))
+                    })?,
                 };
             }
             _ => i += 1,
@@ -47,17 +56,21 @@ fn after(bytes: &[u8], from: usize, end: &[u8]) -> usize {
     found.map_or(bytes.len(), |at| from + at + end.len())
 }
 
-/// The place after a string on one line; a broken line ends it.
-fn after_string(bytes: &[u8], mut i: usize, quote: u8) -> usize {
+/// The place after a string on one line; `None` where the line ends first.
+fn after_string(bytes: &[u8], mut i: usize, quote: u8) -> Option<usize> {
     while let Some(&c) = bytes.get(i) {
         match c {
             b'\\' => i += 2,
-            b'\n' => return i,
-            c if c == quote => return i + 1,
+            b'\n' => return None,
+            c if c == quote => return Some(i + 1),
             _ => i += 1,
         }
     }
-    bytes.len()
+    None
+}
+
+fn line_of(bytes: &[u8], i: usize) -> usize {
+    1 + bytes[..i].iter().filter(|&&c| c == b'\n').count()
 }
 
 #[cfg(test)]
@@ -71,6 +84,13 @@ mod tests {
             "(".repeat(200)
         );
         assert_eq!(check(text.as_bytes()), Ok(()));
+    }
+
+    #[test]
+    fn a_string_that_is_not_closed_is_refused_with_its_line() {
+        let error = check(b"\n[\"a\", \"b]\n").unwrap_err();
+        assert_eq!(error.0, "a string is not closed in line 2");
+        assert_eq!(check(b"@it's.usd@"), Ok(()));
     }
 
     #[test]
