@@ -3,6 +3,8 @@
 //! There is no generator state: whoever needs a number for a hair asks for it by the
 //! hair's index and the purpose, and always gets the same (architecture.md, law 1).
 
+use pelage_surface::hash;
+
 /// What a random number is for. Numbers of two channels are independent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u64)]
@@ -24,17 +26,8 @@ pub enum Channel {
 /// ```
 #[inline]
 pub fn uniform(seed: u64, hair: u64, channel: Channel) -> f32 {
-    let word = mix(mix(seed ^ mix(channel as u64)) ^ hair);
+    let word = hash(hash(seed ^ hash(channel as u64)) ^ hair);
     (word >> 40) as f32 * (1.0 / (1u32 << 24) as f32)
-}
-
-/// Stafford's mix 13, as in SplitMix64: every input bit moves every output bit.
-#[inline]
-fn mix(x: u64) -> u64 {
-    let mut x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-    x ^ x >> 31
 }
 
 #[cfg(test)]

@@ -20,5 +20,5 @@ pub use frame::{RootFrame, SurfacePoint};
 pub use image_map::{ImageMap, MapError, Wrap, linear_from_srgb, srgb_from_linear};
 pub use mesh::{Mesh, MeshError, PolygonMesh};
 pub use sampler::{RootSampler, VoxelRoots};
-pub use sequence::{RootSequence, radical_inverse};
+pub use sequence::{RootSequence, hash, radical_inverse};
 pub use subdivide::Density;

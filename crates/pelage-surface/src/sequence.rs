@@ -155,8 +155,14 @@ fn sobol_second(mut x: u64) -> u64 {
     x ^ x >> 32
 }
 
-/// A 64-bit finaliser (Stafford's mix 13, as in SplitMix64).
-fn hash(x: u64) -> u64 {
+/// A 64-bit hash: Stafford's mix 13, as in SplitMix64. Every input bit moves every
+/// output bit.
+///
+/// ```
+/// assert_ne!(pelage_surface::hash(0), pelage_surface::hash(1));
+/// ```
+#[inline]
+pub fn hash(x: u64) -> u64 {
     let mut x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -1,11 +1,11 @@
 //! `pelage demo`: a furry animal, from nothing.
 
 use super::args::{DemoArgs, Shading, ViewArgs};
-use super::generate::{FirstFrame, Job};
+use super::generate::{FirstFrame, Job, options};
 use super::say::{Say, spent};
 use anyhow::{Context, Result};
 use pelage::Recipe;
-use pelage::io::{WriteOptions, sink_for};
+use pelage::io::sink_for;
 use pelage::strands::Tee;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -27,11 +27,7 @@ pub fn run(args: &DemoArgs, say: &Say) -> Result<ExitCode> {
 
     let mut job = Job::load(Recipe::load(&written[0])?, args.threads, say)?;
     let output = folder.join("hair.usdc");
-    let options = WriteOptions {
-        tool: format!("Pelage {}", env!("CARGO_PKG_VERSION")),
-        ..WriteOptions::default()
-    };
-    let mut sink = sink_for(&output, &options)?;
+    let mut sink = sink_for(&output, &options(false))?;
     let mut hair = FirstFrame::default();
     let report = job.run(&mut Tee::new(vec![&mut *sink, &mut hair]), say)?;
     job.tell(&report, &output, say);

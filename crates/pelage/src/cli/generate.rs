@@ -45,7 +45,7 @@ pub fn run(args: &GenerateArgs, say: &Say) -> Result<ExitCode> {
 }
 
 /// Writers note the program that made a file, without a date: same hair, same bytes.
-fn options(ribbons: bool) -> WriteOptions {
+pub fn options(ribbons: bool) -> WriteOptions {
     WriteOptions {
         ribbons,
         tool: format!("Pelage {}", env!("CARGO_PKG_VERSION")),
