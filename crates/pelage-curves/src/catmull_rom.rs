@@ -38,6 +38,7 @@ pub fn position([a, b, c, d]: [Vec3; 4], t: f32) -> Vec3 {
 /// with ends duplicated. Where that difference vanishes (two neighbours of a
 /// vertex coincide) the outgoing, else the incoming edge is used; a curve without
 /// any length gets +Z.
+#[inline]
 pub fn tangents(points: &[Vec3], tangents: &mut [Vec3]) {
     let last = points.len().saturating_sub(1);
     for i in 0..points.len() {

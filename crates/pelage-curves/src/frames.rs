@@ -29,6 +29,7 @@ pub fn any_perpendicular(direction: Vec3) -> Vec3 {
 /// `first` is where the first normal should point; it is made perpendicular to
 /// the first tangent, and replaced by some perpendicular where they are parallel.
 /// The three slices have one length.
+#[inline]
 pub fn double_reflection(points: &[Vec3], tangents: &[Vec3], first: Vec3, normals: &mut [Vec3]) {
     let Some(&tangent) = tangents.first() else {
         return;

@@ -11,6 +11,9 @@ use crate::stages::look::Look;
 use crate::stages::roots::{Root, root};
 use crate::stages::scale;
 use crate::stages::weights::{Share, inverse_distance, turn};
+use pelage_surface::{RootFrame, SurfacePoint};
+use std::ops::Range;
+use std::time::Instant;
 
 /// Hairs that were left out, and why.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,12 +41,16 @@ impl Dropped {
 #[derive(Clone, Debug, Default)]
 pub struct Capture {
     pub(crate) roots: Vec<Root>,
+    /// Frame of each root at rest.
+    pub(crate) frames: Vec<RootFrame>,
     pub(crate) scale: Vec<f32>,
     /// Where each hair's shares start; one more entry than hairs.
     pub(crate) share_starts: Vec<u32>,
     pub(crate) shares: Vec<Share>,
     pub(crate) looks: Vec<Look>,
     dropped: Dropped,
+    hairs: Vec<u64>,
+    places: Vec<SurfacePoint>,
     near: Vec<Near>,
     weights: Vec<f32>,
 }
@@ -66,22 +73,39 @@ impl Capture {
 }
 
 impl Plan {
-    /// Captures `hairs` (indices, in the order wanted) into `capture`, which is
-    /// emptied first.
-    pub fn capture(
-        &self,
-        hairs: impl Iterator<Item = u64>,
-        capture: &mut Capture,
-        clock: &mut Clock,
-    ) {
+    /// Captures `hairs` into `capture`, which is emptied first.
+    pub fn capture(&self, hairs: Range<u64>, capture: &mut Capture, clock: &mut Clock) {
         let started = clock.start();
-        capture.roots.clear();
-        capture.dropped = Dropped::default();
+        capture.hairs.clear();
+        capture.places.clear();
         if let Some(sampler) = &self.sampler {
-            capture
-                .roots
-                .extend(hairs.map(|h| root(h, sampler, &self.rest, &self.groups)));
+            sampler.roots(hairs.clone(), &mut capture.places);
+            capture.hairs.extend(hairs);
         }
+        self.finish(capture, clock, started);
+    }
+
+    /// Captures the hairs listed, in that order: those of a voxel, say.
+    pub fn capture_listed(&self, hairs: &[u64], capture: &mut Capture, clock: &mut Clock) {
+        let started = clock.start();
+        capture.hairs.clear();
+        capture.places.clear();
+        if let Some(sampler) = &self.sampler {
+            let places = hairs.iter().map(|&hair| sampler.root(hair));
+            capture.places.extend(places);
+            capture.hairs.extend(hairs);
+        }
+        self.finish(capture, clock, started);
+    }
+
+    /// Captures the hairs whose roots have been drawn.
+    fn finish(&self, capture: &mut Capture, clock: &mut Clock, started: Instant) {
+        let hairs = capture.hairs.iter().zip(&capture.places);
+        capture.roots.clear();
+        capture
+            .roots
+            .extend(hairs.map(|(&hair, &place)| root(hair, place, &self.rest, &self.groups)));
+        capture.dropped = Dropped::default();
         let started = clock.stop(Stage::Roots, started);
         self.weigh(capture);
         let started = clock.stop(Stage::Weights, started);
@@ -95,6 +119,7 @@ impl Plan {
     /// Finds guides, weights and scale, and drops hairs that have no length.
     fn weigh(&self, capture: &mut Capture) {
         capture.scale.clear();
+        capture.frames.clear();
         capture.shares.clear();
         capture.share_starts.clear();
         capture.share_starts.push(0);
@@ -111,6 +136,7 @@ impl Plan {
                 capture.dropped.without_guides += 1;
                 continue;
             };
+            capture.near.clear();
             guides.locator.query(root.rest, &mut capture.near);
             match self.method {
                 Method::Nearest => {
@@ -145,6 +171,7 @@ impl Plan {
             capture.roots[kept] = root;
             kept += 1;
             capture.scale.push(factor);
+            capture.frames.push(frame);
             capture.share_starts.push(capture.shares.len() as u32);
         }
         capture.roots.truncate(kept);

@@ -15,7 +15,7 @@ use pelage_surface::{Mesh, RootFrame};
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     local: Vec<Vec3>,
-    frames: Vec<RootFrame>,
+    posed: Vec<RootFrame>,
     tangents: Vec<Vec3>,
 }
 
@@ -37,10 +37,23 @@ impl Plan {
         let started = clock.stop(Stage::Interpolate, started);
         self.color(capture, out);
         let started = clock.stop(Stage::Look, started);
-        self.to_world(capture, pose.unwrap_or(&self.rest), scratch, out);
+        let Scratch {
+            local,
+            posed,
+            tangents,
+        } = scratch;
+        let frames = match pose {
+            None => &capture.frames,
+            Some(pose) => {
+                posed.clear();
+                posed.extend(capture.roots.iter().map(|root| pose.frame(&root.place)));
+                posed
+            }
+        };
+        to_world(frames, local, out);
         let started = clock.stop(Stage::World, started);
         if self.normals {
-            self.frame(scratch, out);
+            frame(frames, tangents, out);
         }
         clock.stop(Stage::Frames, started);
     }
@@ -96,32 +109,22 @@ impl Plan {
             );
         }
     }
+}
 
-    fn to_world(
-        &self,
-        capture: &Capture,
-        pose: &Mesh,
-        scratch: &mut Scratch,
-        out: &mut StrandBuffer,
-    ) {
-        scratch.frames.clear();
-        scratch
-            .frames
-            .extend(capture.roots.iter().map(|root| pose.frame(&root.place)));
-        for (i, frame) in scratch.frames.iter().enumerate() {
-            let range = out.vertices(i);
-            let points = bytemuck::cast_slice_mut(&mut out.points[range.clone()]);
-            world::to_world(frame, &scratch.local[range], points);
-        }
+fn to_world(frames: &[RootFrame], local: &[Vec3], out: &mut StrandBuffer) {
+    for (i, frame) in frames.iter().enumerate() {
+        let range = out.vertices(i);
+        let points = bytemuck::cast_slice_mut(&mut out.points[range.clone()]);
+        world::to_world(frame, &local[range], points);
     }
+}
 
-    fn frame(&self, scratch: &mut Scratch, out: &mut StrandBuffer) {
-        scratch.tangents.resize(out.points.len(), Vec3::ZERO);
-        for (i, root) in scratch.frames.iter().enumerate() {
-            let range = out.vertices(i);
-            let normals = bytemuck::cast_slice_mut(&mut out.normals[range.clone()]);
-            let points = bytemuck::cast_slice(&out.points[range.clone()]);
-            frames::normals(root, points, &mut scratch.tangents[range], normals);
-        }
+fn frame(frames: &[RootFrame], tangents: &mut Vec<Vec3>, out: &mut StrandBuffer) {
+    tangents.resize(out.points.len(), Vec3::ZERO);
+    for (i, root) in frames.iter().enumerate() {
+        let range = out.vertices(i);
+        let normals = bytemuck::cast_slice_mut(&mut out.normals[range.clone()]);
+        let points = bytemuck::cast_slice(&out.points[range.clone()]);
+        frames::normals(root, points, &mut tangents[range], normals);
     }
 }

@@ -26,17 +26,44 @@ pub struct Near {
     pub square: f32,
 }
 
+impl Near {
+    /// Guide and distance as one number, which orders by distance, then by index:
+    /// the bits of floats that are not negative order as the floats do.
+    #[inline(always)]
+    fn key(guide: u32, square: f32) -> u64 {
+        (square.to_bits() as u64) << 32 | guide as u64
+    }
+
+    #[inline(always)]
+    fn of_key(key: u64) -> Self {
+        Self {
+            guide: key as u32,
+            square: f32::from_bits((key >> 32) as u32),
+        }
+    }
+}
+
 /// Finds the nearest of a set of guide roots.
 #[derive(Clone, Debug)]
 pub struct Locator {
-    roots: Vec<Vec3>,
+    guides: usize,
     nearest: usize,
     low: Vec3,
     cells_a_unit: f32,
     resolution: [u32; 3],
     /// For each cell, where its candidates start; one more entry than cells.
     starts: Vec<u32>,
-    candidates: Vec<u32>,
+    candidates: Vec<Candidate>,
+    /// All guides, for points in cells that have no list.
+    all: Vec<Candidate>,
+}
+
+/// A guide that can be among the nearest of a point in a cell, with its root beside it
+/// so that a query reads one run of memory.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    root: Vec3,
+    guide: u32,
 }
 
 impl Locator {
@@ -48,14 +75,19 @@ impl Locator {
         let side = cell_side(mesh, low, high, roots.len());
         let cells = ((high - low) / side).map(|x| x.floor().max(0.0));
         let resolution = [cells.x as u32 + 1, cells.y as u32 + 1, cells.z as u32 + 1];
+        let candidate = |(guide, &root): (usize, &Vec3)| Candidate {
+            root,
+            guide: guide as u32,
+        };
         let mut locator = Self {
-            roots,
+            guides: roots.len(),
             nearest,
             low,
             cells_a_unit: 1.0 / side,
             resolution,
             starts: Vec::new(),
             candidates: Vec::new(),
+            all: roots.iter().enumerate().map(candidate).collect(),
         };
         locator.fill(mesh, side);
         locator
@@ -63,38 +95,30 @@ impl Locator {
 
     /// How many guides a query gives.
     pub fn nearest(&self) -> usize {
-        self.nearest.min(self.roots.len())
+        self.nearest.min(self.guides)
     }
 
-    /// Writes the nearest guides to `point`, nearest first, into `found`.
+    /// Appends the guides nearest to `point`, nearest first.
     #[inline]
     pub fn query(&self, point: Vec3, found: &mut Vec<Near>) {
-        found.clear();
         let cell = self.cell(point);
         let list = &self.candidates[self.starts[cell] as usize..self.starts[cell + 1] as usize];
-        if list.is_empty() {
-            // Rounding put the point into a cell the surface only touches.
-            (0..self.roots.len() as u32).for_each(|g| self.offer(point, g, found));
+        // Rounding may put a point into a cell the surface only touches, and distances
+        // beyond the range of floats are in no list.
+        let list = if list.len() < self.nearest() {
+            &self.all
         } else {
-            list.iter().for_each(|&g| self.offer(point, g, found));
-        }
-    }
-
-    #[inline]
-    fn offer(&self, point: Vec3, guide: u32, found: &mut Vec<Near>) {
-        let square = self.roots[guide as usize].distance_squared(point);
-        if found.len() == self.nearest {
-            // Guides are offered by ascending index, so an equal distance comes later.
-            if square >= found[self.nearest - 1].square {
-                return;
-            }
-            found.pop();
-        }
-        let mut at = found.len();
-        found.push(Near { guide, square });
-        while at > 0 && found[at - 1].square > square {
-            found.swap(at, at - 1);
-            at -= 1;
+            list
+        };
+        // A fixed number of slots lives in registers; those numbers are the usual ones.
+        match self.nearest() {
+            1 => nearest_of(list, point, &mut [u64::MAX; 1], found),
+            2 => nearest_of(list, point, &mut [u64::MAX; 2], found),
+            3 => nearest_of(list, point, &mut [u64::MAX; 3], found),
+            4 => nearest_of(list, point, &mut [u64::MAX; 4], found),
+            5 => nearest_of(list, point, &mut [u64::MAX; 5], found),
+            6 => nearest_of(list, point, &mut [u64::MAX; 6], found),
+            n => nearest_of(list, point, &mut vec![u64::MAX; n], found),
         }
     }
 
@@ -108,9 +132,9 @@ impl Locator {
     /// Lists the candidates of every cell that a triangle passes through.
     fn fill(&mut self, mesh: &Mesh, side: f32) {
         let touched = self.touched(mesh, side);
-        let entries: Vec<[f32; 3]> = self.roots.iter().map(|r| r.to_array()).collect();
+        let entries: Vec<[f32; 3]> = self.all.iter().map(|c| c.root.to_array()).collect();
         let tree = ImmutableKdTree::new_from_slice(&entries).ok();
-        let lists: Vec<Vec<u32>> = touched
+        let lists: Vec<Vec<Candidate>> = touched
             .par_iter()
             .map(|&cell| match &tree {
                 Some(tree) => self.candidates_of(self.centre(cell, side), side, tree),
@@ -134,7 +158,12 @@ impl Locator {
 
     /// Every guide that can be among the nearest of a point within half a diagonal of
     /// `centre`: no farther than the last of the nearest of `centre` plus a diagonal.
-    fn candidates_of(&self, centre: Vec3, side: f32, tree: &ImmutableKdTree<f32, 3>) -> Vec<u32> {
+    fn candidates_of(
+        &self,
+        centre: Vec3,
+        side: f32,
+        tree: &ImmutableKdTree<f32, 3>,
+    ) -> Vec<Candidate> {
         let centre = centre.to_array();
         let nearest = NonZeroUsize::new(self.nearest).unwrap_or(NonZeroUsize::MIN);
         let last = tree
@@ -146,16 +175,13 @@ impl Locator {
             .fold(0.0, f32::max);
         // A little more than the bound, for the rounding of either side.
         let reach = (last.sqrt() + side * 3f32.sqrt()) * 1.0001;
-        let mut list: Vec<u32> = tree
-            .query(&centre)
+        tree.query(&centre)
             .within::<SquaredEuclidean<f32>>(reach * reach)
             .unsorted()
             .execute()
             .iter()
-            .map(|n| n.item)
-            .collect();
-        list.sort_unstable();
-        list
+            .map(|n| self.all[n.item as usize])
+            .collect()
     }
 
     fn centre(&self, cell: usize, side: f32) -> Vec3 {
@@ -198,6 +224,20 @@ impl Locator {
             .map(|(cell, _)| cell)
             .collect()
     }
+}
+
+/// Appends the guides of the least keys; `best` has a slot for each, filled with the
+/// largest number. Every candidate passes all slots, so that nothing can be guessed
+/// wrong: that is cheaper than leaving early.
+#[inline(always)]
+fn nearest_of(list: &[Candidate], point: Vec3, best: &mut [u64], found: &mut Vec<Near>) {
+    for candidate in list {
+        let mut key = Near::key(candidate.guide, candidate.root.distance_squared(point));
+        for slot in best.iter_mut() {
+            (*slot, key) = ((*slot).min(key), (*slot).max(key));
+        }
+    }
+    found.extend(best.iter().map(|&key| Near::of_key(key)));
 }
 
 /// Half the mean distance between guides on the surface: a dozen candidates a cell.

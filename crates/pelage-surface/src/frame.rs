@@ -9,7 +9,7 @@ use crate::Mesh;
 use pelage_curves::{Vec2, Vec3, any_perpendicular};
 
 /// A place on a surface: a triangle and the weights of its corners.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfacePoint {
     /// Triangle of the mesh.
     pub triangle: u32,
@@ -32,6 +32,7 @@ pub struct RootFrame {
 
 impl RootFrame {
     /// A frame from a normal and a tangent that need not be perpendicular or units.
+    #[inline]
     pub fn new(position: Vec3, tangent: Vec3, normal: Vec3) -> Self {
         let normal = normal.try_normalize().unwrap_or(Vec3::Z);
         let part = tangent - normal * tangent.dot(normal);
@@ -66,11 +67,13 @@ impl RootFrame {
 
 impl Mesh {
     /// Position at `point`.
+    #[inline]
     pub fn position(&self, point: &SurfacePoint) -> Vec3 {
         weigh(self.corners(point.triangle as usize), point.barycentric)
     }
 
     /// Texture coordinates at `point`; (0, 0) on a surface without UVs.
+    #[inline]
     pub fn uv(&self, point: &SurfacePoint) -> Vec2 {
         let [a, b, c] = point.barycentric;
         self.uvs()

@@ -1,24 +1,30 @@
 //! Surfaces that grow hair: triangle meshes at rest and posed, image maps, places
 //! on a surface, and roots sampled by density.
 
+mod bulk;
 mod closest;
 mod distribution;
+#[cfg(test)]
+mod fixture;
 mod frame;
 mod hilbert;
 mod image_map;
 mod mesh;
 mod normals;
+mod pieces;
 mod sampler;
 mod sequence;
 mod subdivide;
 mod tangents;
 mod triangulate;
+mod voxels;
 
 pub use closest::ClosestPoint;
 pub use distribution::{Distribution, Pick};
 pub use frame::{RootFrame, SurfacePoint};
 pub use image_map::{ImageMap, MapError, Wrap, linear_from_srgb, srgb_from_linear};
 pub use mesh::{Mesh, MeshError, PolygonMesh};
-pub use sampler::{RootSampler, VoxelRoots};
+pub use sampler::RootSampler;
 pub use sequence::{RootSequence, hash, radical_inverse};
 pub use subdivide::Density;
+pub use voxels::VoxelRoots;

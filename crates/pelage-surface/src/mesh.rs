@@ -217,16 +217,19 @@ impl Mesh {
     }
 
     /// Unit normal at each corner of each triangle.
+    #[inline]
     pub fn normals(&self) -> &[[Vec3; 3]] {
         &self.normals
     }
 
     /// Texture coordinates at each corner of each triangle; empty without UVs.
+    #[inline]
     pub fn uvs(&self) -> &[[Vec2; 3]] {
         &self.uvs
     }
 
     /// Unit tangent at each corner of each triangle.
+    #[inline]
     pub fn tangents(&self) -> &[[Vec3; 3]] {
         &self.tangents
     }
@@ -242,6 +245,7 @@ impl Mesh {
     }
 
     /// Corner positions of triangle `triangle`.
+    #[inline]
     pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
         self.triangles[triangle].map(|v| self.positions[v as usize])
     }

@@ -8,17 +8,15 @@
 
 use crate::distribution::Distribution;
 use crate::hilbert::hilbert_index;
-use crate::subdivide::{self, Density, MAX_DEPTH, Part, pieces};
+use crate::pieces::Pieces;
+use crate::subdivide::{Density, pieces};
 use crate::{Mesh, RootSequence, SurfacePoint};
-use pelage_curves::Vec3;
 
 /// Draws roots on a mesh in proportion to a density.
 #[derive(Clone, Debug)]
 pub struct RootSampler {
     distribution: Distribution,
-    /// Triangle and part of each piece.
-    pieces: Vec<(u32, u32)>,
-    parts: Vec<Part>,
+    pieces: Pieces,
     sequence: RootSequence,
 }
 
@@ -28,38 +26,66 @@ impl RootSampler {
     pub fn new(mesh: &Mesh, density: &Density, seed: u64) -> Option<Self> {
         let found = pieces(mesh, &order_along_curve(mesh), density);
         let weights: Vec<f64> = found.iter().map(|p| p.weight).collect();
-        let distribution = Distribution::new(&weights)?;
-        let deepest = found.iter().map(|p| p.part).max().unwrap_or(0);
-        let depth = (0..MAX_DEPTH)
-            .find(|d| (deepest as usize) < ((1usize << (2 * (d + 1))) - 1) / 3)
-            .unwrap_or(MAX_DEPTH);
         Some(Self {
-            distribution,
-            pieces: found.iter().map(|p| (p.triangle, p.part)).collect(),
-            parts: subdivide::parts(depth),
+            distribution: Distribution::new(&weights)?,
+            pieces: Pieces::new(&found, mesh.triangles().len() as u32)?,
             sequence: RootSequence::new(seed),
         })
     }
 
-    /// Root of hair `index`.
-    #[inline]
+    /// Root of hair `index`. For many, [`roots`](Self::roots) is several times faster.
     pub fn root(&self, index: u64) -> SurfacePoint {
-        let [x, y] = self.sequence.sample(index);
-        self.place(x, (y >> 11) as f64 * (1.0 / (1u64 << 53) as f64))
+        let mut root = [SurfacePoint::default()];
+        self.draw(|_| index, &mut root);
+        root[0]
     }
 
-    /// The place that the fraction `x` (of 2^64) and `y` in 0..1 lead to. Points that
+    /// The place that the fraction `x` (of 2^64) and `y` (of 2^32) lead to. Points that
     /// are evenly spread over the unit square come out in proportion to the density.
-    #[inline]
-    pub fn place(&self, x: u64, y: f64) -> SurfacePoint {
-        let pick = self.distribution.pick(x);
-        let (triangle, part) = self.pieces[pick.index];
-        let root = pick.rest.sqrt();
-        let barycentric =
-            self.parts[part as usize].barycentric((1.0 - root) as f32, (y * root) as f32);
-        SurfacePoint {
-            triangle,
-            barycentric,
+    pub fn place(&self, x: u64, y: u32) -> SurfacePoint {
+        let mut place = [SurfacePoint::default()];
+        self.lead(&[x], &[y], &mut place);
+        place[0]
+    }
+
+    /// Draws the roots of `N` hairs at once.
+    #[inline(always)]
+    pub(crate) fn draw<const N: usize>(
+        &self,
+        hair: impl Fn(usize) -> u64,
+        roots: &mut [SurfacePoint; N],
+    ) {
+        let (mut xs, mut ys) = ([0; N], [0; N]);
+        for k in 0..N {
+            (xs[k], ys[k]) = self.sequence.sample(hair(k));
+        }
+        self.lead(&xs, &ys, roots);
+    }
+
+    /// Places `N` points of the unit square. In three passes, so that processors do the
+    /// arithmetic of many at once and wait for the memory of many at once.
+    #[inline(always)]
+    fn lead<const N: usize>(&self, xs: &[u64; N], ys: &[u32; N], places: &mut [SurfacePoint; N]) {
+        let mut along = [0.0; N];
+        let [mut u, mut v, mut size] = [[0.0; N]; 3];
+        for k in 0..N {
+            let pick = self.distribution.pick(xs[k]);
+            let (triangle, part) = self.pieces.get(pick.index);
+            places[k].triangle = triangle;
+            along[k] = pick.rest;
+            [u[k], v[k]] = part.origin;
+            size[k] = part.size;
+        }
+        // Document 004, 2.1.5: a triangle's area grows with the square of the distance
+        // from its first corner.
+        for k in 0..N {
+            let root = along[k].sqrt();
+            let y = (ys[k] >> 8) as i32 as f32 * (1.0 / (1 << 24) as f32);
+            u[k] += size[k] * (1.0 - root);
+            v[k] += size[k] * (y * root);
+        }
+        for k in 0..N {
+            places[k].barycentric = [(1.0 - u[k] - v[k]).max(0.0), u[k], v[k]];
         }
     }
 
@@ -71,22 +97,32 @@ impl RootSampler {
     /// The centre of each piece, as a place on `mesh`: somewhere in every part of the
     /// surface where hair can grow.
     pub fn piece_centres(&self) -> impl Iterator<Item = SurfacePoint> {
-        self.pieces.iter().map(|&(triangle, part)| SurfacePoint {
+        self.pieces.iter().map(|(triangle, part)| SurfacePoint {
             triangle,
-            barycentric: self.parts[part as usize].centre(),
+            barycentric: part.centre(),
         })
     }
 
-    /// Pieces of constant density.
-    pub fn pieces(&self) -> usize {
+    /// Number of pieces of constant density.
+    pub fn piece_count(&self) -> usize {
         self.pieces.len()
     }
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.distribution.bytes()
-            + std::mem::size_of_val(&self.pieces[..])
-            + std::mem::size_of_val(&self.parts[..])
+        self.distribution.bytes() + self.pieces.bytes()
+    }
+
+    pub(crate) fn pieces(&self) -> &Pieces {
+        &self.pieces
+    }
+
+    pub(crate) fn distribution(&self) -> &Distribution {
+        &self.distribution
+    }
+
+    pub(crate) fn sequence(&self) -> &RootSequence {
+        &self.sequence
     }
 }
 
@@ -104,122 +140,11 @@ fn order_along_curve(mesh: &Mesh) -> Vec<u32> {
     order.into_iter().map(|(_, t)| t).collect()
 }
 
-/// The hairs of each cell of a grid over a surface at rest (architecture.md, law 3).
-///
-/// A hair belongs to the cell that holds the centre of the piece its root lies on, so
-/// the cells share out the hairs exactly, whatever the grid.
-#[derive(Clone, Debug)]
-pub struct VoxelRoots<'a> {
-    sampler: &'a RootSampler,
-    resolution: [u32; 3],
-    /// For each cell, its intervals of the first number.
-    intervals: Vec<Vec<(u64, u128)>>,
-}
-
-impl<'a> VoxelRoots<'a> {
-    /// Sorts the pieces of `sampler`, made of `mesh`, into `resolution` cells over the
-    /// bounds of the mesh. Each resolution is taken as at least 1.
-    pub fn new(sampler: &'a RootSampler, mesh: &Mesh, resolution: [u32; 3]) -> Self {
-        let resolution = resolution.map(|n| n.max(1));
-        let (low, high) = mesh.bounds();
-        let cells = resolution.iter().map(|&n| n as usize).product();
-        let mut intervals: Vec<Vec<(u64, u128)>> = vec![Vec::new(); cells];
-        for (i, &(triangle, part)) in sampler.pieces.iter().enumerate() {
-            let centre = subdivide::centre(mesh, triangle, sampler.parts[part as usize]);
-            let cell = cell_of(centre, low, high, resolution);
-            let (start, end) = sampler.distribution.share(i);
-            match intervals[cell].last_mut() {
-                Some(last) if last.1 == start as u128 => last.1 = end,
-                _ => intervals[cell].push((start, end)),
-            }
-        }
-        Self {
-            sampler,
-            resolution,
-            intervals,
-        }
-    }
-
-    /// Number of cells.
-    pub fn cells(&self) -> usize {
-        self.intervals.len()
-    }
-
-    /// Cells along each axis.
-    pub fn resolution(&self) -> [u32; 3] {
-        self.resolution
-    }
-
-    /// The hairs among the first `count` that belong to cell `cell` (x fastest),
-    /// ascending, in time proportional to their number.
-    pub fn hairs(&self, cell: usize, count: u64) -> Vec<u64> {
-        let mut hairs = Vec::new();
-        for &(low, high) in self.intervals.get(cell).map_or(&[][..], |i| &i[..]) {
-            self.sampler
-                .sequence
-                .indices_in(low, high, count, &mut |i| hairs.push(i));
-        }
-        hairs.sort_unstable();
-        hairs
-    }
-}
-
-fn cell_of(point: Vec3, low: Vec3, high: Vec3, resolution: [u32; 3]) -> usize {
-    let mut cell = 0;
-    for k in (0..3).rev() {
-        let n = resolution[k];
-        let side = high[k] - low[k];
-        let along = if side > 0.0 {
-            (point[k] - low[k]) / side
-        } else {
-            0.0
-        };
-        cell = cell * n as usize + ((along * n as f32) as usize).min(n as usize - 1);
-    }
-    cell
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ImageMap, PolygonMesh, Wrap};
-    use proptest::prelude::*;
-
-    /// A wavy sheet of `n × n` squares over the unit square, with UVs.
-    fn sheet(n: u32) -> Mesh {
-        let at = |i: u32| i as f32 / n as f32;
-        let grid = |x: u32, y: u32| y * (n + 1) + x;
-        let mut mesh = PolygonMesh::default();
-        for y in 0..=n {
-            for x in 0..=n {
-                mesh.positions
-                    .push([at(x), at(y), 0.2 * libm::sinf(5.0 * at(x))]);
-            }
-        }
-        for y in 0..n {
-            for x in 0..n {
-                mesh.face_sizes.push(4);
-                for (dx, dy) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
-                    mesh.corner_vertices.push(grid(x + dx, y + dy));
-                    mesh.corner_uvs.push([at(x + dx), at(y + dy)]);
-                }
-            }
-        }
-        Mesh::new(mesh).unwrap()
-    }
-
-    fn spots() -> ImageMap {
-        let texels = (0..64 * 64)
-            .map(|i| {
-                if (i / 7 + i / 64 / 5) % 3 == 0 {
-                    0.0
-                } else {
-                    (i % 11) as f32
-                }
-            })
-            .collect();
-        ImageMap::new(64, 64, 1, texels, false).unwrap()
-    }
+    use crate::fixture::{sheet, spots};
+    use crate::{ImageMap, Wrap};
 
     #[test]
     fn roots_follow_area_times_density() {
@@ -277,7 +202,7 @@ mod tests {
             map: Some((&grey, 0, Wrap::Repeat)),
         };
         let sampler = RootSampler::new(&mesh, &density, 0).unwrap();
-        assert_eq!(sampler.pieces(), mesh.triangles().len());
+        assert_eq!(sampler.piece_count(), mesh.triangles().len());
     }
 
     #[test]
@@ -292,23 +217,6 @@ mod tests {
             let b = sampler.root(i).barycentric;
             assert!(b.iter().all(|w| (0.0..=1.0).contains(w)), "{b:?}");
             assert!((b.iter().sum::<f32>() - 1.0).abs() < 1e-6);
-        }
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(24))]
-        #[test]
-        fn the_voxels_share_out_the_hairs_exactly(
-            resolution in prop::array::uniform3(1u32..5), count in 0u64..3000, seed: u64,
-        ) {
-            let (mesh, map) = (sheet(5), spots());
-            let density = Density { value: 1.0, map: Some((&map, 0, Wrap::Repeat)) };
-            let sampler = RootSampler::new(&mesh, &density, seed).unwrap();
-            let voxels = VoxelRoots::new(&sampler, &mesh, resolution);
-            let mut all: Vec<u64> =
-                (0..voxels.cells()).flat_map(|c| voxels.hairs(c, count)).collect();
-            all.sort_unstable();
-            prop_assert_eq!(all, (0..count).collect::<Vec<_>>());
         }
     }
 }

@@ -6,15 +6,24 @@
 //! (Owen) scramble so that seeds give independent sets with the same spread: every
 //! bit is flipped by a hash of the bits above it. As in Laine and Karras (2011) the
 //! scramble is computed on the reversed word by operations in which a bit depends on
-//! lower bits only; we use 64 bits and constants of our own.
+//! lower bits only.
+//!
+//! Everything is done on 32-bit words, of which processors multiply many at once. The
+//! first number has two of them, since millions of pieces of surface share it; the
+//! second only places a root inside one piece, and needs no more than one.
 //!
 //! The scramble can be undone bit by bit (architecture.md, law 3): all hairs whose
 //! first number starts with k given bits are r, r + 2^k, r + 2·2^k, …
 
-/// A scrambled (0,2)-sequence of 64-bit fractions.
+/// A scrambled (0,2)-sequence.
 #[derive(Clone, Copy, Debug)]
 pub struct RootSequence {
-    first: Scramble,
+    /// Scramble of the upper word of the first number.
+    upper: Scramble,
+    /// Scramble of its lower word.
+    lower: Scramble,
+    /// What the lower word takes of the index's lower word.
+    key: u32,
     second: Scramble,
 }
 
@@ -22,18 +31,28 @@ impl RootSequence {
     /// The sequence of `seed`.
     pub fn new(seed: u64) -> Self {
         Self {
-            first: Scramble::new(seed, 1),
-            second: Scramble::new(seed, 2),
+            upper: Scramble::new(seed, 1),
+            lower: Scramble::new(seed, 2),
+            key: hash(seed ^ hash(3)) as u32,
+            second: Scramble::new(seed, 4),
         }
     }
 
-    /// Element `index`, as fractions of 2^64.
-    #[inline]
-    pub fn sample(&self, index: u64) -> [u64; 2] {
-        [
-            self.first.apply(index).reverse_bits(),
-            self.second.apply(sobol_second(index)).reverse_bits(),
-        ]
+    /// Element `index`: the first number as a fraction of 2^64, the second of 2^32.
+    #[inline(always)]
+    pub fn sample(&self, index: u64) -> (u64, u32) {
+        let x = self.first(index).reverse_bits();
+        let y = sobol_second(index as u32) ^ sobol_second((index >> 32) as u32);
+        (x, self.second.apply(y).reverse_bits())
+    }
+
+    /// The first number of element `index`, its bits reversed.
+    #[inline(always)]
+    fn first(&self, index: u64) -> u64 {
+        let (low, high) = (index as u32, (index >> 32) as u32);
+        let upper = self.upper.apply(low);
+        let lower = self.lower.apply(high.wrapping_add(mix(low ^ self.key)));
+        (lower as u64) << 32 | upper as u64
     }
 
     /// Calls `visit` with every index below `count` whose first number lies in
@@ -75,12 +94,12 @@ impl RootSequence {
                 }
             }
         } else if alone {
-            let x = self.sample(node.residue)[0] as u128;
+            let x = self.sample(node.residue).0 as u128;
             if low <= x && x < high {
                 visit(node.residue);
             }
         } else {
-            let own = self.first.apply(node.residue) >> node.bits & 1;
+            let own = self.first(node.residue) >> node.bits & 1;
             for bit in [0, 1] {
                 let residue = if bit == own {
                     node.residue
@@ -113,16 +132,16 @@ impl Node {
     }
 }
 
-/// A permutation of 64-bit words in which a bit depends on lower bits only.
+/// A permutation of 32-bit words in which a bit depends on lower bits only.
 #[derive(Clone, Copy, Debug)]
 struct Scramble {
-    shift: u64,
-    stretch: [u64; 2],
+    shift: u32,
+    stretch: [u32; 2],
 }
 
 impl Scramble {
     fn new(seed: u64, channel: u64) -> Self {
-        let word = |k: u64| hash(seed ^ hash(channel << 8 | k));
+        let word = |k: u64| hash(seed ^ hash(channel << 8 | k)) as u32;
         Self {
             shift: word(0),
             stretch: [word(1) | 1, word(2) | 1],
@@ -131,28 +150,36 @@ impl Scramble {
 
     /// `x ^= x * even` carries low bits up by a data-dependent pattern; the odd
     /// factors and the shift bring in the seed at every level.
-    #[inline]
-    fn apply(&self, mut x: u64) -> u64 {
-        x ^= x.wrapping_mul(0x9e6c_63d0_7692_6cf2);
+    #[inline(always)]
+    fn apply(&self, mut x: u32) -> u32 {
+        x ^= x.wrapping_mul(0x7692_6cf2);
         x = x.wrapping_add(self.shift).wrapping_mul(self.stretch[0]);
-        x ^= x.wrapping_mul(0xd1b5_4a32_d192_ed06);
+        x ^= x.wrapping_mul(0xd192_ed06);
         x = x.wrapping_mul(self.stretch[1]);
-        x ^= x.wrapping_mul(0xaef1_7502_108e_f2da);
-        x
+        x ^ x.wrapping_mul(0x108e_f2da)
     }
 }
 
 /// Second dimension of Sobol's sequence with its bits reversed: output bit j is the
 /// exclusive or of all index bits k whose binary digits contain those of j, since
-/// its generator matrix is Pascal's triangle modulo 2.
-#[inline]
-fn sobol_second(mut x: u64) -> u64 {
-    x ^= x >> 1 & 0x5555_5555_5555_5555;
-    x ^= x >> 2 & 0x3333_3333_3333_3333;
-    x ^= x >> 4 & 0x0f0f_0f0f_0f0f_0f0f;
-    x ^= x >> 8 & 0x00ff_00ff_00ff_00ff;
-    x ^= x >> 16 & 0x0000_ffff_0000_ffff;
-    x ^ x >> 32
+/// its generator matrix is Pascal's triangle modulo 2. Of a 64-bit index, the lower
+/// word of the output is that of both words' outputs.
+#[inline(always)]
+fn sobol_second(mut x: u32) -> u32 {
+    x ^= x >> 1 & 0x5555_5555;
+    x ^= x >> 2 & 0x3333_3333;
+    x ^= x >> 4 & 0x0f0f_0f0f;
+    x ^= x >> 8 & 0x00ff_00ff;
+    x ^ x >> 16
+}
+
+/// A 32-bit hash: Wellons' search of 2018, bias 0.17. Every input bit moves every
+/// output bit.
+#[inline(always)]
+fn mix(mut x: u32) -> u32 {
+    x = (x ^ x >> 16).wrapping_mul(0x7feb_352d);
+    x = (x ^ x >> 15).wrapping_mul(0x846c_a68b);
+    x ^ x >> 16
 }
 
 /// A 64-bit hash: Stafford's mix 13, as in SplitMix64. Every input bit moves every
@@ -203,10 +230,10 @@ mod tests {
                     for k in 0..=m {
                         let cells: HashSet<_> = (block << m..(block + 1) << m)
                             .map(|i| {
-                                let [x, y] = sequence.sample(i);
+                                let (x, y) = sequence.sample(i);
                                 let cut =
                                     |v: u64, bits| if bits == 0 { 0 } else { v >> (64 - bits) };
-                                (cut(x, k), cut(y, m - k))
+                                (cut(x, k), cut((y as u64) << 32, m - k))
                             })
                             .collect();
                         assert_eq!(cells.len(), 1 << m, "seed {seed}, 2^{m}, {k} bits of x");
@@ -224,8 +251,9 @@ mod tests {
             for shift in [60, 52, 44] {
                 let mut counts = [0f64; 256];
                 for seed in 0..seeds {
-                    let [x, y] = RootSequence::new(seed).sample(index);
-                    counts[((x >> shift & 15) << 4 | y >> shift & 15) as usize] += 1.0;
+                    let (x, y) = RootSequence::new(seed).sample(index);
+                    let y = (y >> (shift - 32)) as u64;
+                    counts[((x >> shift & 15) << 4 | y & 15) as usize] += 1.0;
                 }
                 let expected = seeds as f64 / 256.0;
                 let chi_square: f64 = counts
@@ -253,7 +281,7 @@ mod tests {
             found.sort_unstable();
             let expected: Vec<u64> = (0..count)
                 .filter(|&i| {
-                    let x = sequence.sample(i)[0];
+                    let x = sequence.sample(i).0;
                     x >= low && (x as u128) < high
                 })
                 .collect();

@@ -61,6 +61,16 @@ impl Part {
         ]
     }
 
+    /// The part of this part that `inner` is of the whole.
+    #[inline]
+    pub(crate) fn part(self, inner: Part) -> Part {
+        let along = |k: usize| self.origin[k] + self.size * inner.origin[k];
+        Part {
+            origin: [along(0), along(1)],
+            size: self.size * inner.size,
+        }
+    }
+
     /// Weights of the whole triangle's corners at `(p, q)` of this part.
     #[inline]
     pub(crate) fn barycentric(self, p: f32, q: f32) -> [f32; 3] {
@@ -76,9 +86,14 @@ impl Part {
     }
 }
 
+/// Number of parts down to `depth`.
+pub(crate) fn parts_down_to(depth: u32) -> usize {
+    ((1usize << (2 * (depth + 1))) - 1) / 3
+}
+
 /// All parts down to `depth`, at the index that names them.
 pub(crate) fn parts(depth: u32) -> Vec<Part> {
-    let count = ((1usize << (2 * (depth + 1))) - 1) / 3;
+    let count = parts_down_to(depth);
     let mut parts = Vec::with_capacity(count);
     parts.push(Part::WHOLE);
     let mut parent = 0;
@@ -179,14 +194,21 @@ impl<'a> Cutter<'a> {
     }
 }
 
-/// Least depth at which a part covers at most one texel (document 004, eq. 2.3), also
-/// along its longest side so that slivers of texture are resolved.
+/// Longest side a part may have, in texels, where its area alone would do: slivers of
+/// texture are resolved along their length too.
+const LONGEST: f32 = 4.0;
+
+/// Least depth at which a part covers at most one texel (document 004, eq. 2.3).
 fn depth_for(uv: [Vec2; 3], map: &ImageMap) -> u32 {
     let texel = |p: Vec2| p * Vec2::new(map.width() as f32, map.height() as f32);
     let [a, b, c] = uv.map(texel);
+    let area = (b - a).perp_dot(c - a).abs() / 2.0;
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
     (0..MAX_DEPTH)
-        .find(|&d| longest <= std::f32::consts::SQRT_2 * (1u32 << d) as f32)
+        .find(|&d| {
+            let side = (1u32 << d) as f32;
+            area <= side * side && longest <= LONGEST * side
+        })
         .unwrap_or(MAX_DEPTH)
 }
 

@@ -5,7 +5,7 @@
 
 use crate::groups::Groups;
 use pelage_curves::{Vec2, Vec3};
-use pelage_surface::{Mesh, RootSampler, SurfacePoint};
+use pelage_surface::{Mesh, SurfacePoint};
 
 /// Where a hair grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,10 +22,9 @@ pub struct Root {
     pub group: u32,
 }
 
-/// The root of hair `hair`.
+/// The root of hair `hair`, which the sampler placed at `place`.
 #[inline]
-pub fn root(hair: u64, sampler: &RootSampler, rest: &Mesh, groups: &Groups) -> Root {
-    let place = sampler.root(hair);
+pub fn root(hair: u64, place: SurfacePoint, rest: &Mesh, groups: &Groups) -> Root {
     let uv = rest.uv(&place);
     Root {
         hair,

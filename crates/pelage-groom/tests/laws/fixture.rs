@@ -139,7 +139,7 @@ pub fn collect(plan: &Plan, hairs: Range<u64>, threads: usize) -> StrandBuffer {
 pub fn strands(plan: &Plan, hairs: &[u64], pose: Option<&Mesh>) -> StrandBuffer {
     let (mut capture, mut clock) = (Capture::default(), Clock::default());
     let mut out = StrandBuffer::new();
-    plan.capture(hairs.iter().copied(), &mut capture, &mut clock);
+    plan.capture_listed(hairs, &mut capture, &mut clock);
     plan.evaluate(
         &capture,
         pose,

@@ -37,7 +37,7 @@ fn law_1_any_split_thread_count_and_chunk_gives_the_same_bits() {
 #[test]
 fn law_1_the_same_bytes_on_every_machine() {
     // A change here changes every groom of every user: say so in CHANGELOG.md.
-    const EXPECTED: u64 = 0xb0dc_83a9_03b1_83a1;
+    const EXPECTED: u64 = 0x2d29_bf84_c996_9c00;
     let strands = collect(&plan(), 0..2000, 2);
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     let mut add = |bytes: &[u8]| {
@@ -174,9 +174,9 @@ fn law_8_roots_inside_one_small_triangle_do_not_fall_on_lines() {
     };
     let plan = fixture.plan();
     let sampler = plan.sampler().unwrap();
-    let place = sampler.place(1 << 63, 0.5);
+    let place = sampler.place(1 << 63, 1 << 31);
     let mut weights: Vec<u32> = (0..4096u64)
-        .map(|k| sampler.place((1 << 63) + (k << 31), 0.5))
+        .map(|k| sampler.place((1 << 63) + (k << 31), 1 << 31))
         .filter(|p| p.triangle == place.triangle)
         .map(|p| p.barycentric[1].to_bits())
         .collect();
@@ -236,9 +236,10 @@ fn hairs_that_grow_side_by_side_look_alike_also_where_their_guides_change() {
             if apart < 0.02 {
                 pairs += 1;
                 // Guides stand 0.25 apart and are 0.4 long: over that distance a tip may
-                // turn right round, some 3 lengths a length. A jump would be 20.
+                // turn right round, some 3 lengths a length, and twice that beside a guide.
+                // A jump would be 20.
                 let jump = tip(i).distance(tip(j));
-                assert!(jump < 6.0 * apart, "hairs {i}, {j}: {jump} over {apart}");
+                assert!(jump < 8.0 * apart, "hairs {i}, {j}: {jump} over {apart}");
             }
         }
     }

@@ -1,0 +1,153 @@
+//! Many roots by their index, at the speed of reading the tables in order.
+//!
+//! Consecutive hairs lie as far apart on the surface as they can, so drawing them one
+//! after the other waits for memory at every step. But all hairs whose indices agree in
+//! the lower k bits share the first k bits of their first number (see
+//! [`RootSequence`](crate::RootSequence)): they are neighbours. A block of hairs is
+//! therefore drawn in tiles. A tile row is [`LANES`] such neighbours, whose tables lie
+//! within a few kilobytes; its columns are hairs that follow each other, so that a tile
+//! is copied out in runs. What is drawn for a hair does not depend on the tiles.
+
+use crate::{RootSampler, SurfacePoint};
+use fearless_simd::{Level, dispatch};
+use std::ops::Range;
+
+/// Neighbours drawn at once.
+const LANES: usize = 512;
+
+const BATCH: usize = 64;
+
+/// Hairs that follow each other in a tile: with the roots at 16 bytes, runs of a
+/// kilobyte.
+const RUN: usize = 32;
+
+/// A tile's rows are padded, since rows a power of two apart would share cache sets.
+const ROW: usize = RUN + 4;
+
+/// Largest block, as a power of two: more would gain little, as its rows already read
+/// the tables almost in order.
+const LARGEST: u32 = 22;
+
+impl RootSampler {
+    /// Appends the roots of `hairs` to `roots`, in the order of their indices.
+    ///
+    /// Large ranges that start at multiples of large powers of two are fastest.
+    pub fn roots(&self, hairs: Range<u64>, roots: &mut Vec<SurfacePoint>) {
+        let count = hairs.end.saturating_sub(hairs.start) as usize;
+        let before = roots.len();
+        roots.resize(before + count, SurfacePoint::default());
+        self.fill(hairs.start, &mut roots[before..]);
+    }
+
+    /// Writes the roots of the hairs from `first` on to `roots`.
+    pub fn fill(&self, first: u64, roots: &mut [SurfacePoint]) {
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            self.fill_blocks(first, roots)
+        });
+    }
+
+    #[inline(always)]
+    fn fill_blocks(&self, mut first: u64, mut roots: &mut [SurfacePoint]) {
+        let mut tile = Vec::new();
+        while !roots.is_empty() {
+            let block = largest_block(first, roots.len());
+            let (now, later) = roots.split_at_mut(block);
+            if block >= LANES * RUN {
+                tile.resize(LANES * ROW, SurfacePoint::default());
+                self.fill_tiles(first, now, &mut tile);
+            } else {
+                self.fill_in_order(first, now);
+            }
+            first += block as u64;
+            roots = later;
+        }
+    }
+
+    #[inline(always)]
+    fn fill_tiles(&self, first: u64, roots: &mut [SurfacePoint], tile: &mut [SurfacePoint]) {
+        let stride = roots.len() / LANES;
+        let mut batch = [SurfacePoint::default(); BATCH];
+        for start in (0..stride).step_by(RUN) {
+            for column in 0..RUN {
+                let hair = first + (start + column) as u64;
+                for lane in (0..LANES).step_by(BATCH) {
+                    self.draw(|k| hair + ((lane + k) * stride) as u64, &mut batch);
+                    for (k, root) in batch.iter().enumerate() {
+                        tile[(lane + k) * ROW + column] = *root;
+                    }
+                }
+            }
+            for (k, run) in tile.chunks_exact(ROW).enumerate() {
+                roots[k * stride + start..][..RUN].copy_from_slice(&run[..RUN]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn fill_in_order(&self, first: u64, roots: &mut [SurfacePoint]) {
+        let (rows, rest) = roots.as_chunks_mut::<16>();
+        for (k, row) in rows.iter_mut().enumerate() {
+            let hair = first + 16 * k as u64;
+            self.draw(|k| hair + k as u64, row);
+        }
+        let done = 16 * rows.len();
+        for (k, root) in rest.iter_mut().enumerate() {
+            let hair = first + (done + k) as u64;
+            self.draw(|_| hair, std::array::from_mut(root));
+        }
+    }
+}
+
+/// Hairs of the largest block that starts at `first` and has at most `count`: a power
+/// of two that divides `first`; where that is too small for tiles, all hairs up to the
+/// next larger block.
+fn largest_block(first: u64, count: usize) -> usize {
+    let fits = 1usize << count.ilog2().min(LARGEST);
+    let aligned = 1usize << first.trailing_zeros().min(LARGEST);
+    let block = fits.min(aligned);
+    let smallest = LANES * RUN;
+    if block >= smallest {
+        return block;
+    }
+    match first as usize % smallest {
+        0 => count,
+        past => count.min(smallest - past),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{sheet, spots};
+    use crate::{Density, Wrap};
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+        #[test]
+        fn many_roots_at_once_are_the_same_roots(
+            first in prop_oneof![0u64..1 << 20, (1u64 << 40) - 9000..1 << 40, Just(1u64 << 32)],
+            count in 0usize..20_000, seed: u64,
+        ) {
+            let map = spots();
+            let density = Density { value: 1.0, map: Some((&map, 0, Wrap::Repeat)) };
+            let sampler = RootSampler::new(&sheet(6), &density, seed).unwrap();
+            let mut roots = Vec::new();
+            sampler.roots(first..first + count as u64, &mut roots);
+            prop_assert_eq!(roots.len(), count);
+            for (k, root) in roots.iter().enumerate() {
+                prop_assert_eq!(*root, sampler.root(first + k as u64));
+            }
+        }
+    }
+
+    #[test]
+    fn blocks_are_aligned_and_fit() {
+        assert_eq!(largest_block(0, 1 << 23), 1 << 22);
+        assert_eq!(largest_block(1 << 14, 1 << 22), 1 << 14);
+        assert_eq!(largest_block(0, 100), 100);
+        assert_eq!(largest_block(5, 100_000), LANES * RUN - 5);
+        assert_eq!(largest_block(u64::MAX - 3, 3), 3);
+    }
+}

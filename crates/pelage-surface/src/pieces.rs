@@ -1,0 +1,146 @@
+//! Which part of which triangle each piece is, in four bytes.
+//!
+//! Document 004, section 2.1.4, keeps two indices of four bytes a piece. One is enough:
+//! nearly always the bits of the largest triangle index and of the deepest part fit one
+//! word together. Where they do not (a million triangles, one of which fills a large
+//! map), parts that are too deep are named from a *split*: a part of the triangle that
+//! is listed as if it were one more triangle.
+
+use crate::subdivide::{Part, Piece, parts, parts_down_to};
+use std::collections::HashMap;
+
+/// The pieces of a surface, by their index along the distribution.
+#[derive(Clone, Debug)]
+pub(crate) struct Pieces {
+    /// Host and part of each piece; the part in the lower `part_bits`.
+    codes: Vec<u32>,
+    part_bits: u32,
+    parts: Vec<Part>,
+    /// Hosts from this one on are splits.
+    triangles: u32,
+    splits: Vec<(u32, Part)>,
+}
+
+impl Pieces {
+    /// Packs `found`, pieces of a mesh of `triangles` triangles; `None` for more pieces
+    /// than 32 bits can name.
+    pub(crate) fn new(found: &[Piece], triangles: u32) -> Option<Self> {
+        let deepest = found.iter().map(|p| p.part).max().unwrap_or(0);
+        (0..=depth_of(deepest))
+            .rev()
+            .find_map(|depth| Self::with_depth(found, triangles, depth))
+    }
+
+    /// Packs `found` with part indices down to `depth`, if all hosts can be named.
+    fn with_depth(found: &[Piece], triangles: u32, depth: u32) -> Option<Self> {
+        let part_bits = (parts_down_to(depth) - 1)
+            .checked_ilog2()
+            .map_or(0, |b| b + 1);
+        let hosts = 1u64 << (32 - part_bits);
+        let mut splits = Vec::new();
+        let mut named = HashMap::new();
+        let mut codes = Vec::with_capacity(found.len());
+        for piece in found {
+            let (base, local) = cut_name(piece.part, depth);
+            let host = match base {
+                0 => piece.triangle,
+                _ => *named.entry((piece.triangle, base)).or_insert_with(|| {
+                    splits.push((piece.triangle, part_named(base)));
+                    triangles + splits.len() as u32 - 1
+                }),
+            };
+            if triangles as u64 + splits.len() as u64 > hosts {
+                return None;
+            }
+            codes.push(((host as u64) << part_bits) as u32 | local);
+        }
+        Some(Self {
+            codes,
+            part_bits,
+            parts: parts(depth),
+            triangles,
+            splits,
+        })
+    }
+
+    /// Triangle and part of piece `index`.
+    #[inline(always)]
+    pub(crate) fn get(&self, index: usize) -> (u32, Part) {
+        let code = self.codes[index] as u64;
+        let part = self.parts[(code & ((1 << self.part_bits) - 1)) as usize];
+        let host = (code >> self.part_bits) as u32;
+        if host < self.triangles {
+            (host, part)
+        } else {
+            let (triangle, base) = self.splits[(host - self.triangles) as usize];
+            (triangle, base.part(part))
+        }
+    }
+
+    /// Number of pieces.
+    pub(crate) fn len(&self) -> usize {
+        self.codes.len()
+    }
+
+    /// All pieces, in order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (u32, Part)> {
+        (0..self.len()).map(|i| self.get(i))
+    }
+
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> usize {
+        self.codes.len() * 4 + size_of_val(&self.parts[..]) + size_of_val(&self.splits[..])
+    }
+}
+
+/// How often the whole was cut to make part `index`.
+fn depth_of(index: u32) -> u32 {
+    (0..)
+        .find(|&d| (index as usize) < parts_down_to(d))
+        .unwrap_or(0)
+}
+
+/// Splits the name of a part into a base and a name below it of at most `depth` digits.
+fn cut_name(index: u32, depth: u32) -> (u32, u32) {
+    let (mut base, mut local, mut place) = (index, 0, 1);
+    for _ in 0..depth {
+        if base == 0 {
+            break;
+        }
+        local += place * ((base - 1) % 4 + 1);
+        base = (base - 1) / 4;
+        place *= 4;
+    }
+    (base, local)
+}
+
+fn part_named(index: u32) -> Part {
+    match index {
+        0 => Part::WHOLE,
+        _ => part_named((index - 1) / 4).children()[((index - 1) % 4) as usize],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_packed_piece_is_the_piece(
+            found in prop::collection::vec((0u32..5000, 0u32..349_525), 1..200),
+            crowd in 0u32..20,
+        ) {
+            let triangles = 5000 << crowd.min(18);
+            let found: Vec<Piece> = found
+                .into_iter()
+                .map(|(triangle, part)| Piece { triangle, part, weight: 1.0 })
+                .collect();
+            let pieces = Pieces::new(&found, triangles).unwrap();
+            for (packed, piece) in pieces.iter().zip(&found) {
+                prop_assert_eq!(packed, (piece.triangle, part_named(piece.part)));
+            }
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! Which hairs belong to which cell of a grid in space.
+
+use crate::{Mesh, RootSampler, subdivide};
+use pelage_curves::Vec3;
+
+/// The hairs of each cell of a grid over a surface at rest (architecture.md, law 3).
+///
+/// A hair belongs to the cell that holds the centre of the piece its root lies on, so
+/// the cells share out the hairs exactly, whatever the grid.
+#[derive(Clone, Debug)]
+pub struct VoxelRoots<'a> {
+    sampler: &'a RootSampler,
+    resolution: [u32; 3],
+    /// For each cell, its intervals of the first number.
+    intervals: Vec<Vec<(u64, u128)>>,
+}
+
+impl<'a> VoxelRoots<'a> {
+    /// Sorts the pieces of `sampler`, made of `mesh`, into `resolution` cells over the
+    /// bounds of the mesh. Each resolution is taken as at least 1.
+    pub fn new(sampler: &'a RootSampler, mesh: &Mesh, resolution: [u32; 3]) -> Self {
+        let resolution = resolution.map(|n| n.max(1));
+        let (low, high) = mesh.bounds();
+        let cells = resolution.iter().map(|&n| n as usize).product();
+        let mut intervals: Vec<Vec<(u64, u128)>> = vec![Vec::new(); cells];
+        for (i, (triangle, part)) in sampler.pieces().iter().enumerate() {
+            let centre = subdivide::centre(mesh, triangle, part);
+            let cell = cell_of(centre, low, high, resolution);
+            let (start, end) = sampler.distribution().share(i);
+            match intervals[cell].last_mut() {
+                Some(last) if last.1 == start as u128 => last.1 = end,
+                _ => intervals[cell].push((start, end)),
+            }
+        }
+        Self {
+            sampler,
+            resolution,
+            intervals,
+        }
+    }
+
+    /// Number of cells.
+    pub fn cells(&self) -> usize {
+        self.intervals.len()
+    }
+
+    /// Cells along each axis.
+    pub fn resolution(&self) -> [u32; 3] {
+        self.resolution
+    }
+
+    /// The hairs among the first `count` that belong to cell `cell` (x fastest),
+    /// ascending, in time proportional to their number.
+    pub fn hairs(&self, cell: usize, count: u64) -> Vec<u64> {
+        let mut hairs = Vec::new();
+        for &(low, high) in self.intervals.get(cell).map_or(&[][..], |i| &i[..]) {
+            self.sampler
+                .sequence()
+                .indices_in(low, high, count, &mut |i| hairs.push(i));
+        }
+        hairs.sort_unstable();
+        hairs
+    }
+}
+
+fn cell_of(point: Vec3, low: Vec3, high: Vec3, resolution: [u32; 3]) -> usize {
+    let mut cell = 0;
+    for k in (0..3).rev() {
+        let n = resolution[k];
+        let side = high[k] - low[k];
+        let along = if side > 0.0 {
+            (point[k] - low[k]) / side
+        } else {
+            0.0
+        };
+        cell = cell * n as usize + ((along * n as f32) as usize).min(n as usize - 1);
+    }
+    cell
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{sheet, spots};
+    use crate::{Density, Wrap};
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+        #[test]
+        fn the_voxels_share_out_the_hairs_exactly(
+            resolution in prop::array::uniform3(1u32..5), count in 0u64..3000, seed: u64,
+        ) {
+            let (mesh, map) = (sheet(5), spots());
+            let density = Density { value: 1.0, map: Some((&map, 0, Wrap::Repeat)) };
+            let sampler = RootSampler::new(&mesh, &density, seed).unwrap();
+            let voxels = VoxelRoots::new(&sampler, &mesh, resolution);
+            let mut all: Vec<u64> =
+                (0..voxels.cells()).flat_map(|c| voxels.hairs(c, count)).collect();
+            all.sort_unstable();
+            prop_assert_eq!(all, (0..count).collect::<Vec<_>>());
+        }
+    }
+}
