@@ -37,3 +37,25 @@ pub(crate) fn spots() -> ImageMap {
         .collect();
     ImageMap::new(64, 64, 1, texels, false).unwrap()
 }
+
+/// Maps of every kind that tests go through, with their names.
+pub(crate) fn maps() -> Vec<(&'static str, ImageMap)> {
+    let map = |texel: &dyn Fn(u32, u32) -> f32| {
+        let texels = (0..64 * 64).map(|i| texel(i % 64, i / 64)).collect();
+        ImageMap::new(64, 64, 1, texels, false).unwrap()
+    };
+    let noise = |x: u32, y: u32| (crate::hash((y * 64 + x) as u64) >> 40) as f32 / 2f32.powi(24);
+    vec![
+        ("uniform", map(&|_, _| 0.7)),
+        ("checkerboard", map(&|x, y| ((x / 8 + y / 8) % 2) as f32)),
+        ("noise", map(&noise)),
+        (
+            "heavy tail",
+            map(&|x, y| 1.0 / (noise(x, y).powi(2) + 1e-3)),
+        ),
+        (
+            "one bright texel",
+            map(&|x, y| if (x, y) == (40, 9) { 1e6 } else { 1.0 }),
+        ),
+    ]
+}

@@ -10,7 +10,7 @@ use crate::distribution::Distribution;
 use crate::hilbert::hilbert_index;
 use crate::pieces::Pieces;
 use crate::subdivide::{Density, pieces};
-use crate::{Mesh, RootSequence, SurfacePoint};
+use crate::{Mesh, RootSequence, Spread, SurfacePoint};
 
 /// Draws roots on a mesh in proportion to a density.
 #[derive(Clone, Debug)]
@@ -18,6 +18,7 @@ pub struct RootSampler {
     distribution: Distribution,
     pieces: Pieces,
     sequence: RootSequence,
+    seed: u64,
 }
 
 impl RootSampler {
@@ -29,8 +30,17 @@ impl RootSampler {
         Some(Self {
             distribution: Distribution::new(&weights)?,
             pieces: Pieces::new(&found, mesh.triangles().len() as u32)?,
-            sequence: RootSequence::new(seed),
+            sequence: RootSequence::new(seed, Spread::default()),
+            seed,
         })
+    }
+
+    /// The same roots spread in another way.
+    pub fn with_spread(self, spread: Spread) -> Self {
+        Self {
+            sequence: RootSequence::new(self.seed, spread),
+            ..self
+        }
     }
 
     /// Root of hair `index`. For many, [`roots`](Self::roots) is several times faster.
@@ -56,9 +66,7 @@ impl RootSampler {
         roots: &mut [SurfacePoint; N],
     ) {
         let (mut xs, mut ys) = ([0; N], [0; N]);
-        for k in 0..N {
-            (xs[k], ys[k]) = self.sequence.sample(hair(k));
-        }
+        self.sequence.samples(hair, &mut xs, &mut ys);
         self.lead(&xs, &ys, roots);
     }
 

@@ -15,9 +15,21 @@
 //! The scramble can be undone bit by bit (architecture.md, law 3): all hairs whose
 //! first number starts with k given bits are r, r + 2^k, r + 2·2^k, …
 
-/// A scrambled (0,2)-sequence.
+/// How the numbers of different hairs go together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Spread {
+    /// A scrambled (0,2)-sequence: every prefix is well spread.
+    #[default]
+    Stratified,
+    /// Independent of each other, as by throwing dice. The hairs of an interval can
+    /// only be found by trying all.
+    Random,
+}
+
+/// A scrambled (0,2)-sequence, or independent numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct RootSequence {
+    spread: Spread,
     /// Scramble of the upper word of the first number.
     upper: Scramble,
     /// Scramble of its lower word.
@@ -29,8 +41,9 @@ pub struct RootSequence {
 
 impl RootSequence {
     /// The sequence of `seed`.
-    pub fn new(seed: u64) -> Self {
+    pub fn new(seed: u64, spread: Spread) -> Self {
         Self {
+            spread,
             upper: Scramble::new(seed, 1),
             lower: Scramble::new(seed, 2),
             key: hash(seed ^ hash(3)) as u32,
@@ -39,8 +52,43 @@ impl RootSequence {
     }
 
     /// Element `index`: the first number as a fraction of 2^64, the second of 2^32.
-    #[inline(always)]
     pub fn sample(&self, index: u64) -> (u64, u32) {
+        let (mut x, mut y) = ([0], [0]);
+        self.samples(|_| index, &mut x, &mut y);
+        (x[0], y[0])
+    }
+
+    /// The elements `index(0)`, `index(1)`, … to `xs` and `ys`.
+    #[inline(always)]
+    pub(crate) fn samples<const N: usize>(
+        &self,
+        index: impl Fn(usize) -> u64,
+        xs: &mut [u64; N],
+        ys: &mut [u32; N],
+    ) {
+        match self.spread {
+            Spread::Stratified => {
+                for k in 0..N {
+                    (xs[k], ys[k]) = self.stratified(index(k));
+                }
+            }
+            Spread::Random => {
+                for k in 0..N {
+                    (xs[k], ys[k]) = self.random(index(k));
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn random(&self, index: u64) -> (u64, u32) {
+        let key = (self.key as u64) << 32 | self.second.shift as u64;
+        let x = hash(key ^ hash(index));
+        (x, hash(x ^ key) as u32)
+    }
+
+    #[inline(always)]
+    fn stratified(&self, index: u64) -> (u64, u32) {
         let x = self.first(index).reverse_bits();
         let y = sobol_second(index as u32) ^ sobol_second((index >> 32) as u32);
         (x, self.second.apply(y).reverse_bits())
@@ -57,8 +105,15 @@ impl RootSequence {
 
     /// Calls `visit` with every index below `count` whose first number lies in
     /// `low..high` (`high` up to 2^64), in time proportional to their number plus
-    /// the logarithm of `count`. The order is not that of the indices.
+    /// the logarithm of `count` (random numbers: to `count`). The order is not that of
+    /// the indices.
     pub fn indices_in(&self, low: u64, high: u128, count: u64, visit: &mut impl FnMut(u64)) {
+        if self.spread == Spread::Random {
+            let inside = |x: u64| low <= x && (x as u128) < high;
+            return (0..count)
+                .filter(|&index| inside(self.random(index).0))
+                .for_each(visit);
+        }
         self.descend(
             Node {
                 prefix: 0,
@@ -224,7 +279,7 @@ mod tests {
     #[test]
     fn every_block_of_a_power_of_two_fills_every_elementary_interval() {
         for seed in [0, 1, 99] {
-            let sequence = RootSequence::new(seed);
+            let sequence = RootSequence::new(seed, Spread::Stratified);
             for m in 1..=8u32 {
                 for block in 0..3u64 {
                     for k in 0..=m {
@@ -251,7 +306,7 @@ mod tests {
             for shift in [60, 52, 44] {
                 let mut counts = [0f64; 256];
                 for seed in 0..seeds {
-                    let (x, y) = RootSequence::new(seed).sample(index);
+                    let (x, y) = RootSequence::new(seed, Spread::Stratified).sample(index);
                     let y = (y >> (shift - 32)) as u64;
                     counts[((x >> shift & 15) << 4 | y & 15) as usize] += 1.0;
                 }
@@ -274,7 +329,7 @@ mod tests {
         fn listing_an_interval_finds_exactly_its_hairs(
             seed: u64, count in 0u64..600, a: u64, b: u64,
         ) {
-            let sequence = RootSequence::new(seed);
+            let sequence = RootSequence::new(seed, Spread::Stratified);
             let (low, high) = (a.min(b), a.max(b) as u128 + 1);
             let mut found = Vec::new();
             sequence.indices_in(low, high, count, &mut |i| found.push(i));
@@ -290,7 +345,7 @@ mod tests {
 
         #[test]
         fn a_narrow_interval_costs_little_even_among_a_trillion_hairs(seed: u64, low: u64) {
-            let sequence = RootSequence::new(seed);
+            let sequence = RootSequence::new(seed, Spread::Stratified);
             let mut found = 0;
             let width = 1u128 << 28; // expects 2^40 · 2^28 / 2^64 = 16 hairs
             sequence.indices_in(low, low as u128 + width, 1 << 40, &mut |_| found += 1);
