@@ -145,6 +145,7 @@ impl ImageMap {
     /// Bilinear value of `channel` at `(u, v)`, origin lower left: the first row of
     /// the image is v = 1. Texel centres lie at half-integers. A channel the image
     /// does not have reads its last one.
+    #[inline(always)]
     pub fn sample(&self, u: f32, v: f32, channel: u32, wrap: Wrap) -> f32 {
         let channel = channel.min(self.channels - 1) as usize;
         self.around(u, v, wrap)
@@ -175,11 +176,12 @@ impl ImageMap {
         }
     }
 
+    #[inline(always)]
     fn around(&self, u: f32, v: f32, wrap: Wrap) -> Around {
         // f64: at u = 10 an f32 holds only a sixteenth of a texel of a large map.
         let x = u as f64 * self.width as f64 - 0.5;
         let y = (1.0 - v as f64) * self.height as f64 - 0.5;
-        let (x0, y0) = (x.floor(), y.floor());
+        let [x0, y0] = [x, y].map(floor);
         Around {
             columns: [x0, x0 + 1.0].map(|x| wrapped(x, self.width, wrap)),
             rows: [y0, y0 + 1.0].map(|y| wrapped(y, self.height, wrap)),
@@ -199,6 +201,7 @@ struct Around {
 
 impl Around {
     /// Written as differences so that equal texels give that very value.
+    #[inline(always)]
     fn blend(&self, texel: impl Fn(u32, u32) -> f32) -> f32 {
         let row = |y| {
             let (a, b) = (texel(self.columns[0], y), texel(self.columns[1], y));
@@ -209,8 +212,24 @@ impl Around {
     }
 }
 
+/// The largest integer that is not above `x`: `f64::floor`, which is a call where the
+/// processor is only asked for its oldest instructions.
+#[inline(always)]
+fn floor(x: f64) -> f64 {
+    const NO_FRACTIONS: f64 = (1u64 << 52) as f64;
+    if x.abs() >= NO_FRACTIONS {
+        return x;
+    }
+    let whole = x as i64 as f64;
+    if whole > x { whole - 1.0 } else { whole }
+}
+
 /// Column or row `x` brought into `0..size`. Anything that is no number gives 0.
+#[inline(always)]
 fn wrapped(x: f64, size: u32, wrap: Wrap) -> u32 {
+    if (0.0..size as f64).contains(&x) {
+        return x as u32;
+    }
     match wrap {
         Wrap::Repeat => (x.rem_euclid(size as f64) as u32).min(size - 1),
         Wrap::Clamp => (x.max(0.0) as u32).min(size - 1),

@@ -11,6 +11,7 @@ use crate::hilbert::hilbert_index;
 use crate::pieces::Pieces;
 use crate::subdivide::{Density, pieces};
 use crate::{Mesh, RootSequence, Spread, SurfacePoint};
+use rayon::prelude::*;
 
 /// Draws roots on a mesh in proportion to a density.
 #[derive(Clone, Debug)]
@@ -139,12 +140,13 @@ fn order_along_curve(mesh: &Mesh) -> Vec<u32> {
     let (low, high) = mesh.bounds();
     let side = (high - low).max_element().max(f32::MIN_POSITIVE);
     let mut order: Vec<(u64, u32)> = (0..mesh.triangles().len() as u32)
+        .into_par_iter()
         .map(|t| {
             let [a, b, c] = mesh.corners(t as usize);
             (hilbert_index((a + b + c) / 3.0, low, side), t)
         })
         .collect();
-    order.sort_unstable();
+    order.par_sort_unstable();
     order.into_iter().map(|(_, t)| t).collect()
 }
 

@@ -6,6 +6,7 @@
 //! whole triangle, 4i + 1 … 4i + 4 its parts), and its corners come from a table.
 
 use crate::{ImageMap, Mesh, Wrap};
+use fearless_simd::{Level, dispatch};
 use pelage_curves::{Vec2, Vec3};
 use rayon::prelude::*;
 
@@ -18,9 +19,9 @@ pub struct Density<'a> {
     pub map: Option<(&'a ImageMap, u32, Wrap)>,
 }
 
-/// Depth at which cutting stops whatever the map: 4^10 pieces a triangle, a texel of
-/// a 1024² map that one triangle fills.
-pub(crate) const MAX_DEPTH: u32 = 10;
+/// Depth at which cutting stops whatever the map: 4^12 pieces a triangle, the
+/// texels of a 4096² map that one triangle fills.
+pub(crate) const MAX_DEPTH: u32 = 12;
 
 /// A part of a triangle in barycentric coordinates: the triangle
 /// `origin, origin + (size, 0), origin + (0, size)`; `size` is negative for the middle
@@ -71,13 +72,19 @@ impl Part {
         }
     }
 
+    /// Where `(p, q)` of this part lies in the whole.
+    #[inline]
+    pub(crate) fn at(self, p: f32, q: f32) -> [f32; 2] {
+        [
+            self.origin[0] + self.size * p,
+            self.origin[1] + self.size * q,
+        ]
+    }
+
     /// Weights of the whole triangle's corners at `(p, q)` of this part.
     #[inline]
     pub(crate) fn barycentric(self, p: f32, q: f32) -> [f32; 3] {
-        let (u, v) = (
-            self.origin[0] + self.size * p,
-            self.origin[1] + self.size * q,
-        );
+        let [u, v] = self.at(p, q);
         [(1.0 - u - v).max(0.0), u, v]
     }
 
@@ -115,83 +122,170 @@ pub(crate) struct Piece {
 
 /// The pieces of all triangles in the order given, without those of density zero.
 pub(crate) fn pieces(mesh: &Mesh, order: &[u32], density: &Density) -> Vec<Piece> {
+    let depth = |&triangle: &u32| depth_of(mesh, triangle, density);
+    let deepest = order.par_iter().map(depth).max().unwrap_or(0);
+    let leaves = Leaves::down_to(deepest.min(TABLE_DEPTH));
+    let level = Level::new();
     order
-        .par_chunks(1024)
+        .par_chunks(256)
         .map(|triangles| {
             let mut pieces = Vec::new();
-            for &triangle in triangles {
-                Cutter::new(mesh, triangle, density).cut(&mut pieces);
-            }
+            let mut cutter = Cutter {
+                mesh,
+                density,
+                leaves: &leaves,
+                levels: vec![Vec::new(); deepest as usize + 1],
+            };
+            dispatch!(level, simd => {
+                let _ = simd;
+                for &triangle in triangles {
+                    cutter.cut(triangle, &mut pieces);
+                }
+            });
             pieces
         })
         .collect::<Vec<_>>()
         .concat()
 }
 
-struct Cutter<'a> {
-    triangle: u32,
-    area: f64,
-    uv: [Vec2; 3],
-    depth: u32,
-    density: &'a Density<'a>,
+/// Depth to which centres come from a table; below, from a part of the table's depth
+/// inside another.
+const TABLE_DEPTH: u32 = 6;
+
+/// Centres of the parts of each depth, in the order of their names.
+struct Leaves(Vec<Vec<[f32; 2]>>);
+
+impl Leaves {
+    fn down_to(depth: u32) -> Self {
+        let parts = parts(depth);
+        let of_depth = |d: u32| {
+            let first = parts_down_to(d) - (1 << (2 * d));
+            let parts = &parts[first..parts_down_to(d)];
+            parts.iter().map(|p| p.at(1.0 / 3.0, 1.0 / 3.0)).collect()
+        };
+        Self((0..=depth).map(of_depth).collect())
+    }
 }
 
-impl<'a> Cutter<'a> {
-    fn new(mesh: &Mesh, triangle: u32, density: &'a Density<'a>) -> Self {
-        let area = mesh.area(triangle as usize);
-        let uv = mesh
-            .uvs()
-            .get(triangle as usize)
-            .copied()
-            .unwrap_or([Vec2::ZERO; 3]);
-        let depth = density.map.map_or(0, |(map, ..)| depth_for(uv, map));
-        Self {
-            triangle,
-            area,
-            uv,
-            depth,
-            density,
+/// Density of a part whose parts have different ones.
+const MIXED: f32 = f32::NAN;
+
+struct Cutter<'a> {
+    mesh: &'a Mesh,
+    density: &'a Density<'a>,
+    leaves: &'a Leaves,
+    /// Densities of the parts of each depth.
+    levels: Vec<Vec<f32>>,
+}
+
+impl Cutter<'_> {
+    #[inline(always)]
+    fn cut(&mut self, triangle: u32, pieces: &mut Vec<Piece>) {
+        let area = self.mesh.area(triangle as usize);
+        // A NaN has no area either.
+        let has_area = area > 0.0 && area.is_finite();
+        if !has_area {
+            return;
         }
+        let depth = depth_of(self.mesh, triangle, self.density);
+        self.sample(triangle, depth);
+        let uncut = (0..depth)
+            .rev()
+            .find(|&d| !self.merge(d))
+            .map_or(0, |d| d + 1);
+        let weight = area * self.density.value as f64;
+        self.emit(0, 0, uncut, &mut |d, i, density| {
+            pieces.push(Piece {
+                triangle,
+                part: (parts_down_to(d) - (1 << (2 * d)) + i) as u32,
+                weight: weight / (1u64 << (2 * d)) as f64 * density as f64,
+            });
+        });
     }
 
-    fn cut(&self, pieces: &mut Vec<Piece>) {
-        if self.area > 0.0 && self.area.is_finite() {
-            self.cut_part(0, Part::WHOLE, 0, pieces);
-        }
-    }
-
-    /// Appends the pieces of a part; returns its density where it is constant.
-    fn cut_part(&self, index: u32, part: Part, depth: u32, pieces: &mut Vec<Piece>) -> Option<f32> {
-        let share = self.area / (1u64 << (2 * depth)) as f64;
-        let start = pieces.len();
-        let constant = if depth == self.depth {
-            Some(self.density_at(part.centre()))
-        } else {
-            let mut densities = [None; 4];
-            for (j, child) in part.children().into_iter().enumerate() {
-                densities[j] = self.cut_part(4 * index + 1 + j as u32, child, depth + 1, pieces);
-            }
-            densities[0].filter(|_| densities.iter().all(|d| *d == densities[0]))
+    /// Reads the density at the centres of the parts of depth `depth`.
+    #[inline(always)]
+    fn sample(&mut self, triangle: u32, depth: u32) {
+        let level = &mut self.levels[depth as usize];
+        level.clear();
+        let Some((map, channel, wrap)) = self.density.map else {
+            level.push(1.0);
+            return;
         };
-        if let Some(density) = constant {
-            pieces.truncate(start);
-            let weight = share * density as f64;
-            if weight > 0.0 {
-                pieces.push(Piece {
-                    triangle: self.triangle,
-                    part: index,
-                    weight,
+        let uv = uvs(self.mesh, triangle);
+        let leaves = &self.leaves.0[depth.min(TABLE_DEPTH) as usize];
+        for_each_part(
+            Part::WHOLE,
+            depth.saturating_sub(TABLE_DEPTH),
+            &mut |base| {
+                let [a, b, c] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[p, q]| {
+                    let [u, v] = base.at(p, q);
+                    uv[0] * (1.0 - u - v) + uv[1] * u + uv[2] * v
                 });
-            }
-        }
-        constant
+                level.extend(leaves.iter().map(|&[u, v]| {
+                    let at = a * (1.0 - u - v) + b * u + c * v;
+                    map.sample(at.x, at.y, channel, wrap)
+                }));
+            },
+        );
     }
 
-    fn density_at(&self, [a, b, c]: [f32; 3]) -> f32 {
-        let uv = self.uv[0] * a + self.uv[1] * b + self.uv[2] * c;
-        let map = self.density.map;
-        self.density.value * map.map_or(1.0, |(map, k, wrap)| map.sample(uv.x, uv.y, k, wrap))
+    /// Gives the parts of depth `depth` the density that their four parts share, and
+    /// tells whether any could be merged.
+    #[inline(always)]
+    fn merge(&mut self, depth: u32) -> bool {
+        let (above, below) = self.levels.split_at_mut(depth as usize + 1);
+        let (above, below) = (&mut above[depth as usize], &below[0]);
+        let mut merged = false;
+        above.clear();
+        above.extend(below.as_chunks().0.iter().map(|&[a, b, c, d]: &[f32; 4]| {
+            let same = a == b && a == c && a == d;
+            merged |= same;
+            if same { a } else { MIXED }
+        }));
+        merged
     }
+
+    /// Calls `visit` with depth, number and density of the largest parts of one density.
+    /// Parts above depth `uncut` are known to be mixed.
+    fn emit(&self, d: u32, i: usize, uncut: u32, visit: &mut impl FnMut(u32, usize, f32)) {
+        let density = if d < uncut {
+            MIXED
+        } else {
+            self.levels[d as usize][i]
+        };
+        if density.is_nan() {
+            for child in 4 * i..4 * i + 4 {
+                self.emit(d + 1, child, uncut, visit);
+            }
+        } else if density > 0.0 {
+            visit(d, i, density);
+        }
+    }
+}
+
+/// Calls `visit` with the parts `depth` cuts below `part`, in the order of their names.
+#[inline]
+fn for_each_part(part: Part, depth: u32, visit: &mut impl FnMut(Part)) {
+    match depth {
+        0 => visit(part),
+        _ => {
+            for child in part.children() {
+                for_each_part(child, depth - 1, visit);
+            }
+        }
+    }
+}
+
+fn uvs(mesh: &Mesh, triangle: u32) -> [Vec2; 3] {
+    let all = mesh.uvs().get(triangle as usize);
+    all.copied().unwrap_or([Vec2::ZERO; 3])
+}
+
+fn depth_of(mesh: &Mesh, triangle: u32, density: &Density) -> u32 {
+    density
+        .map
+        .map_or(0, |(map, ..)| depth_for(uvs(mesh, triangle), map))
 }
 
 /// Longest side a part may have, in texels, where its area alone would do: slivers of
