@@ -59,6 +59,20 @@ impl RootSampler {
         place[0]
     }
 
+    /// The place `along` (0..=1) and `y` (a fraction of 2^32) inside piece `piece`, for
+    /// whoever picks pieces in another way.
+    ///
+    /// Panics where there is no such piece.
+    #[inline]
+    pub fn place_in(&self, piece: usize, along: f32, y: u32) -> SurfacePoint {
+        let (triangle, part) = self.pieces.get(piece);
+        let root = along.sqrt();
+        SurfacePoint {
+            triangle,
+            barycentric: part.barycentric(1.0 - root, fraction(y) * root),
+        }
+    }
+
     /// Draws the roots of `N` hairs at once.
     #[inline(always)]
     pub(crate) fn draw<const N: usize>(
@@ -89,9 +103,8 @@ impl RootSampler {
         // from its first corner.
         for k in 0..N {
             let root = along[k].sqrt();
-            let y = (ys[k] >> 8) as i32 as f32 * (1.0 / (1 << 24) as f32);
             u[k] += size[k] * (1.0 - root);
-            v[k] += size[k] * (y * root);
+            v[k] += size[k] * (fraction(ys[k]) * root);
         }
         for k in 0..N {
             places[k].barycentric = [(1.0 - u[k] - v[k]).max(0.0), u[k], v[k]];
@@ -126,13 +139,21 @@ impl RootSampler {
         &self.pieces
     }
 
-    pub(crate) fn distribution(&self) -> &Distribution {
+    /// How likely each piece is.
+    pub fn distribution(&self) -> &Distribution {
         &self.distribution
     }
 
-    pub(crate) fn sequence(&self) -> &RootSequence {
+    /// The two numbers of each hair.
+    pub fn sequence(&self) -> &RootSequence {
         &self.sequence
     }
+}
+
+/// The upper bits of `y` that a float can hold, as a number in 0..1.
+#[inline(always)]
+fn fraction(y: u32) -> f32 {
+    (y >> 8) as i32 as f32 * (1.0 / (1 << 24) as f32)
 }
 
 /// Triangles along a Hilbert curve through their centres.

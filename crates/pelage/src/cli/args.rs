@@ -39,6 +39,8 @@ pub enum Command {
     Render(RenderArgs),
     /// Tell what a file holds, and everything that is wrong with it.
     Inspect(InspectArgs),
+    /// Measure the figures of docs/results again, on this machine.
+    Bench(BenchArgs),
     /// Print the JSON Schema of groom.toml, for editors.
     Schema,
     /// Print a completion script for a shell.
@@ -221,6 +223,32 @@ pub struct InspectArgs {
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
+}
+
+/// `pelage bench`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  pelage bench sampling\n  \
+    pelage bench sampling -o results --json results/sampling.json")]
+pub struct BenchArgs {
+    /// What to measure.
+    #[arg(value_enum)]
+    pub what: Bench,
+    /// Folder for the tables and plots.
+    #[arg(long, short, value_hint = ValueHint::DirPath, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+    /// File for the measurements as data.
+    #[arg(long, value_hint = ValueHint::FilePath, value_name = "JSON")]
+    pub json: Option<PathBuf>,
+    /// Only try that everything can be measured: a few seconds, worthless figures.
+    #[arg(long)]
+    pub quick: bool,
+}
+
+/// What can be measured.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Bench {
+    /// Drawing roots: rates, preprocessing and memory against other methods.
+    Sampling,
 }
 
 impl GenerateArgs {

@@ -4,6 +4,7 @@
 //! command line itself is wrong; 3 `inspect` found something wrong with a file.
 
 mod args;
+mod bench;
 mod demo;
 mod generate;
 mod init;
@@ -31,6 +32,7 @@ pub fn run() -> ExitCode {
         Command::Generate(args) => generate::run(&args, &say),
         Command::Render(args) => picture::run(&args, &say),
         Command::Inspect(args) => inspect::run(&args, &say),
+        Command::Bench(args) => bench::run(&args, &say),
         Command::Schema => pages::schema(),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man { folder } => pages::man(folder.as_deref(), &say),

@@ -1,0 +1,92 @@
+//! Times of one method on one surface and map.
+
+use super::maps::Map;
+use super::methods::prepare;
+use super::surfaces::Surface;
+use pelage::surface::SurfacePoint;
+use serde::Serialize;
+use std::time::Instant;
+
+/// What was measured, as `--json` gives it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    pub mesh: &'static str,
+    pub triangles: usize,
+    pub map: &'static str,
+    pub map_size: u32,
+    pub method: &'static str,
+    pub threads: usize,
+    pub samples: u64,
+    /// Time to draw the samples.
+    pub seconds: f64,
+    pub preprocess_seconds: f64,
+    /// Memory of the method's tables.
+    pub bytes: usize,
+}
+
+impl Row {
+    /// Millions of samples a second.
+    pub fn rate(&self) -> f64 {
+        self.samples as f64 / self.seconds / 1e6
+    }
+}
+
+/// How much to measure.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Most samples to draw.
+    pub samples: u64,
+    /// Longest that drawing them may be expected to take; slow methods draw fewer.
+    pub seconds: f64,
+    /// Runs, of which the fastest counts.
+    pub runs: usize,
+}
+
+/// Measures `method` with `threads` threads.
+pub fn measure(
+    surface: &Surface,
+    map: &Map,
+    method: &'static str,
+    threads: usize,
+    effort: Effort,
+) -> Row {
+    // The pool may be refused only where the system has no thread left.
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .expect("a thread pool");
+    let started = Instant::now();
+    let prepared = pool.install(|| prepare(method, &surface.mesh, map));
+    let preprocess_seconds = started.elapsed().as_secs_f64();
+    let mut roots = vec![SurfacePoint::default(); 1 << 14];
+    let mut draw = |samples: u64| {
+        roots.resize(samples as usize, SurfacePoint::default());
+        let started = Instant::now();
+        let share = (samples as usize).div_ceil(threads);
+        std::thread::scope(|scope| {
+            for (k, roots) in roots.chunks_mut(share).enumerate() {
+                let prepared = &prepared;
+                scope.spawn(move || prepared.fill((k * share) as u64, roots));
+            }
+        });
+        started.elapsed().as_secs_f64()
+    };
+    let probe = 1 << 14;
+    let fits = effort.seconds / (draw(probe) / probe as f64);
+    let samples = effort.samples.min(fits as u64).max(probe);
+    let seconds = (0..effort.runs)
+        .map(|_| draw(samples))
+        .fold(f64::INFINITY, f64::min);
+    Row {
+        mesh: surface.name,
+        triangles: surface.mesh.triangles().len(),
+        map: map.name,
+        map_size: map.image.width(),
+        method,
+        threads,
+        samples,
+        seconds,
+        preprocess_seconds,
+        bytes: prepared.bytes(),
+    }
+}

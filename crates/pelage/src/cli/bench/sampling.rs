@@ -1,0 +1,253 @@
+//! `pelage bench sampling`: the tables of document 004, section 4.1, measured again.
+
+use super::maps::{map, maps};
+use super::measure::{Effort, Row, measure};
+use super::methods::{METHODS, sampler};
+use super::picks;
+use super::plot::{Axes, Line, logarithmic};
+use super::surfaces::{Surface, surfaces};
+use crate::cli::progress::Bar;
+use crate::cli::say::Say;
+use anyhow::Result;
+use std::fmt::Write;
+
+/// Texels along a side of the maps, unless a table is about that.
+const MAP_SIZE: u32 = 1024;
+
+/// Everything that was measured.
+pub struct Results {
+    /// Surfaces by maps by methods, one thread.
+    pub rates: Vec<Row>,
+    /// Our method for maps of several sizes.
+    pub sizes: Vec<Row>,
+    /// Our method for several numbers of threads.
+    pub threads: Vec<Row>,
+    /// Picks a second by the size of the grid.
+    pub cells: Vec<(&'static str, Vec<f64>)>,
+    /// Picks a second from skies, with and without the grid.
+    pub skies: Vec<(&'static str, [f64; 2])>,
+}
+
+/// Measures everything; `quick` takes one surface and few samples.
+pub fn run(quick: bool, say: &Say) -> Results {
+    let effort = match quick {
+        true => Effort {
+            samples: 1 << 16,
+            seconds: 0.05,
+            runs: 1,
+        },
+        false => Effort {
+            samples: 10_000_000,
+            seconds: 2.0,
+            runs: 3,
+        },
+    };
+    let mut surfaces = surfaces();
+    if quick {
+        surfaces.truncate(1);
+    }
+    let maps = maps(if quick { 256 } else { MAP_SIZE });
+    let total = surfaces.len() * maps.len() * METHODS.len();
+    let bar = Bar::new(say, total as u64, "measurements");
+    let mut rates = Vec::new();
+    for surface in &surfaces {
+        for map in &maps {
+            for method in METHODS {
+                rates.push(measure(surface, map, method, 1, effort));
+                bar.set(rates.len() as u64);
+            }
+        }
+    }
+    let first = &surfaces[0];
+    let weights = |map| {
+        let sampler = sampler(&first.mesh, map);
+        let all = sampler.distribution();
+        (0..all.len())
+            .map(|i| all.probability(i))
+            .collect::<Vec<_>>()
+    };
+    Results {
+        sizes: by_size(first, if quick { 64 } else { 512 }, effort),
+        threads: by_threads(first, &maps, effort),
+        cells: maps
+            .iter()
+            .map(|map| (map.name, picks::by_cells(&weights(map), effort)))
+            .collect(),
+        skies: maps
+            .iter()
+            .map(|map| (map.name, picks::sky(map, effort)))
+            .collect(),
+        rates,
+    }
+}
+
+fn by_size(surface: &Surface, smallest: u32, effort: Effort) -> Vec<Row> {
+    [1, 2, 4]
+        .map(|times| {
+            measure(
+                surface,
+                &map("embers", smallest * times),
+                "guided",
+                1,
+                effort,
+            )
+        })
+        .into()
+}
+
+fn by_threads(surface: &Surface, maps: &[super::maps::Map], effort: Effort) -> Vec<Row> {
+    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+    let doubled = std::iter::successors(Some(1), |n| Some(n * 2));
+    let counts: Vec<usize> = doubled.take_while(|&n| n <= cores).collect();
+    let named = |name: &&super::maps::Map| ["uniform", "embers"].contains(&name.name);
+    maps.iter()
+        .filter(named)
+        .flat_map(|map| counts.iter().map(move |&n| (map, n)))
+        .map(|(map, n)| measure(surface, map, "guided", n, effort))
+        .collect()
+}
+
+impl Results {
+    /// All measurements of whole methods.
+    pub fn rows(&self) -> Vec<&Row> {
+        self.rates
+            .iter()
+            .chain(&self.sizes)
+            .chain(&self.threads)
+            .collect()
+    }
+
+    /// The tables as Markdown, each below its heading.
+    pub fn tables(&self) -> String {
+        let mut text = String::new();
+        // Writing to a String cannot fail.
+        let _ = self.write_tables(&mut text);
+        text
+    }
+
+    fn write_tables(&self, text: &mut String) -> std::fmt::Result {
+        writeln!(text, "## Rates, million samples a second, one thread\n")?;
+        self.by_method(text, |row| format!("{:.2}", row.rate()))?;
+        writeln!(text, "\n## Preprocessing, milliseconds, one thread\n")?;
+        self.by_method(text, |row| format!("{:.0}", row.preprocess_seconds * 1e3))?;
+        writeln!(text, "\n## Memory, MB\n")?;
+        self.by_method(text, |row| format!("{:.1}", row.bytes as f64 / 1e6))?;
+        writeln!(text, "\n## Size of the map (embers)\n")?;
+        writeln!(
+            text,
+            "| map | M samples/s | preprocessing, ms | memory, MB |"
+        )?;
+        writeln!(text, "|---|---|---|---|")?;
+        for row in &self.sizes {
+            writeln!(
+                text,
+                "| {size}² | {:.1} | {:.0} | {:.1} |",
+                row.rate(),
+                row.preprocess_seconds * 1e3,
+                row.bytes as f64 / 1e6,
+                size = row.map_size,
+            )?;
+        }
+        writeln!(text, "\n## Threads\n")?;
+        writeln!(text, "| map | threads | M samples/s |\n|---|---|---|")?;
+        for row in &self.threads {
+            writeln!(
+                text,
+                "| {} | {} | {:.1} |",
+                row.map,
+                row.threads,
+                row.rate()
+            )?;
+        }
+        writeln!(
+            text,
+            "\n## Cells of the grid an element, million picks a second\n"
+        )?;
+        let cells: Vec<String> = picks::CELLS.iter().map(|c| c.to_string()).collect();
+        writeln!(text, "| map | {} |", cells.join(" | "))?;
+        writeln!(text, "|---|{}", "---|".repeat(cells.len()))?;
+        for (map, rates) in &self.cells {
+            let rates: Vec<String> = rates.iter().map(|r| format!("{r:.1}")).collect();
+            writeln!(text, "| {map} | {} |", rates.join(" | "))?;
+        }
+        writeln!(text, "\n## Maps of the sky, million picks a second\n")?;
+        writeln!(text, "| map | with the grid | by bisection | times |")?;
+        writeln!(text, "|---|---|---|---|")?;
+        for (map, [grid, bisection]) in &self.skies {
+            let times = grid / bisection;
+            writeln!(text, "| {map} | {grid:.1} | {bisection:.1} | {times:.1} |")?;
+        }
+        Ok(())
+    }
+
+    /// A table with a column for each method.
+    fn by_method(&self, text: &mut String, cell: impl Fn(&Row) -> String) -> std::fmt::Result {
+        writeln!(
+            text,
+            "| surface | triangles | map | {} |",
+            METHODS.join(" | ")
+        )?;
+        writeln!(text, "|---|---|---|{}", "---|".repeat(METHODS.len()))?;
+        for rows in self.rates.chunks(METHODS.len()) {
+            let cells: Vec<String> = rows.iter().map(&cell).collect();
+            let Row {
+                mesh,
+                triangles,
+                map,
+                ..
+            } = rows[0];
+            writeln!(
+                text,
+                "| {mesh} | {triangles} | {map} | {} |",
+                cells.join(" | ")
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Plots by the name of their files.
+    pub fn plots(&self) -> Result<Vec<(&'static str, String)>> {
+        let cells = self.cells.iter().map(|(map, rates)| Line {
+            name: (*map).into(),
+            points: picks::CELLS
+                .iter()
+                .copied()
+                .zip(rates.iter().copied())
+                .collect(),
+        });
+        let methods = METHODS.iter().enumerate().map(|(k, method)| Line {
+            name: (*method).into(),
+            points: self
+                .rates
+                .chunks(METHODS.len())
+                .take(self.cells.len())
+                .enumerate()
+                .map(|(map, rows)| (map as f64 + 1.0, rows[k].rate()))
+                .collect(),
+        });
+        Ok(vec![
+            (
+                "sampling-grid.svg",
+                logarithmic(
+                    &Axes {
+                        title: "Picks by the size of the grid",
+                        x: "cells an element",
+                        y: "million picks a second",
+                    },
+                    &cells.collect::<Vec<_>>(),
+                )?,
+            ),
+            (
+                "sampling-rates.svg",
+                logarithmic(
+                    &Axes {
+                        title: "Samples on the first surface, one thread",
+                        x: "map, in the order of the tables",
+                        y: "million samples a second",
+                    },
+                    &methods.collect::<Vec<_>>(),
+                )?,
+            ),
+        ])
+    }
+}
