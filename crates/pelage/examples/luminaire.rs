@@ -1,0 +1,219 @@
+//! Light from a textured lamp, by three ways of sampling its surface.
+//!
+//! A lamp shade with a bright pattern lights a point of the floor. The light is the
+//! integral over the shade of radiance times the cosines at both ends over the squared
+//! distance. It is estimated with roots that are uniform over the area, with roots that
+//! rejection gives the density of the radiance, and with [`RootSampler`], whose density
+//! is the same but whose roots are stratified. Prints the error of each for a growing
+//! number of samples and plots it (document 004 names this use in section 2.1.8):
+//!
+//! ```text
+//! cargo run --release --example luminaire -- luminaire.svg
+//! ```
+
+use pelage::curves::Vec3;
+use pelage::surface::{
+    Density, ImageMap, Mesh, PolygonMesh, RootPdf, RootSampler, Spread, SurfacePoint, Wrap, hash,
+};
+use plotters::prelude::*;
+use std::error::Error;
+use std::f64::consts::TAU;
+
+/// Estimates of each kind whose errors are averaged.
+const TRIALS: u64 = 64;
+
+const NAMES: [&str; 3] = ["uniform", "rejection", "RootSampler"];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let output = std::env::args().nth(1).unwrap_or("luminaire.svg".into());
+    let lamp = Lamp {
+        mesh: shade()?,
+        radiance: pattern()?,
+        receiver: Vec3::new(1.2, -1.5, 0.4),
+        up: Vec3::Y,
+    };
+    let truth = lamp.exact();
+    println!("light at the floor: {truth:.6}\n");
+    println!("| samples | {} |\n|---|---|---|---|", NAMES.join(" | "));
+    let mut lines = [const { Vec::new() }; 3];
+    for samples in (4..=16).map(|k| 1u64 << k) {
+        let errors = lamp.errors(samples, truth)?;
+        println!(
+            "| {samples} | {} |",
+            errors.map(|e| format!("{e:.6}")).join(" | ")
+        );
+        for (line, error) in lines.iter_mut().zip(errors) {
+            line.push((samples as f64, error));
+        }
+    }
+    plot(&output, &lines)?;
+    println!("\n{output}");
+    Ok(())
+}
+
+/// A lamp and the floor that it lights.
+struct Lamp {
+    mesh: Mesh,
+    radiance: ImageMap,
+    receiver: Vec3,
+    up: Vec3,
+}
+
+impl Lamp {
+    fn radiance(&self, place: &SurfacePoint) -> f64 {
+        let uv = self.mesh.uv(place);
+        self.radiance.sample(uv.x, uv.y, 0, Wrap::Repeat) as f64
+    }
+
+    /// Light that a unit of area at `place` sends to the floor. The shade glows on both
+    /// sides and hides nothing.
+    fn light(&self, place: &SurfacePoint) -> f64 {
+        let [a, b, c] = self.mesh.corners(place.triangle as usize);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let way = self.mesh.position(place) - self.receiver;
+        let distance = way.length();
+        let toward = way / distance;
+        let cosines = toward.dot(self.up).max(0.0) * toward.dot(normal).abs();
+        self.radiance(place) * (cosines / (distance * distance)) as f64
+    }
+
+    /// Root mean square of the relative error of the three estimates.
+    fn errors(&self, samples: u64, truth: f64) -> Result<[f64; 3], Box<dyn Error>> {
+        let density = Density {
+            value: 1.0,
+            map: Some((&self.radiance, 0, Wrap::Repeat)),
+        };
+        let even = Density {
+            value: 1.0,
+            map: None,
+        };
+        let mut squares = [0.0; 3];
+        for seed in 0..TRIALS {
+            let sampler = RootSampler::new(&self.mesh, &density, seed).ok_or("a dark lamp")?;
+            let uniform = RootSampler::new(&self.mesh, &even, seed)
+                .ok_or("no lamp")?
+                .with_spread(Spread::Random);
+            let estimates = [
+                self.estimate(&uniform, samples),
+                self.by_rejection(&uniform, &RootPdf::new(&sampler, &self.mesh), samples),
+                self.estimate(&sampler, samples),
+            ];
+            for (square, estimate) in squares.iter_mut().zip(estimates) {
+                *square += (estimate / truth - 1.0).powi(2);
+            }
+        }
+        Ok(squares.map(|s| (s / TRIALS as f64).sqrt()))
+    }
+
+    /// The mean of light over density at the sampler's roots.
+    fn estimate(&self, sampler: &RootSampler, samples: u64) -> f64 {
+        let pdf = RootPdf::new(sampler, &self.mesh);
+        let mut roots = Vec::new();
+        sampler.roots(0..samples, &mut roots);
+        let sum: f64 = roots.iter().map(|r| self.light(r) / pdf.density(r)).sum();
+        sum / samples as f64
+    }
+
+    /// The same with uniform roots of which as many are taken as the radiance says.
+    fn by_rejection(&self, uniform: &RootSampler, pdf: &RootPdf, samples: u64) -> f64 {
+        let brightest = self.radiance.texels().iter().copied().fold(0.0, f32::max);
+        let taken = (0..)
+            .map(|i| (uniform.root(i), (hash(!i) >> 40) as f64 / 2f64.powi(24)))
+            .filter(|(root, coin)| coin * (brightest as f64) < self.radiance(root))
+            .take(samples as usize);
+        let sum: f64 = taken
+            .map(|(root, _)| self.light(&root) / pdf.density(&root).max(f64::MIN_POSITIVE))
+            .sum();
+        sum / samples as f64
+    }
+
+    /// The integral by very many well-spread roots.
+    fn exact(&self) -> f64 {
+        let even = Density {
+            value: 1.0,
+            map: None,
+        };
+        RootSampler::new(&self.mesh, &even, 1).map_or(0.0, |s| self.estimate(&s, 1 << 24))
+    }
+}
+
+/// A shade: a bulging tube about the vertical.
+fn shade() -> Result<Mesh, Box<dyn Error>> {
+    let (columns, rows) = (96, 48);
+    let mut mesh = PolygonMesh::default();
+    let at = |x: u32, y: u32| [x as f64 / columns as f64, y as f64 / rows as f64];
+    for y in 0..=rows {
+        for x in 0..=columns {
+            let [u, v] = at(x, y);
+            let radius = 0.3 + 0.25 * (0.5 * TAU * v).sin();
+            let point = [radius * (TAU * u).cos(), v, radius * (TAU * u).sin()];
+            mesh.positions.push(point.map(|c| c as f32));
+        }
+    }
+    for y in 0..rows {
+        for x in 0..columns {
+            mesh.face_sizes.push(4);
+            for [x, y] in [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]] {
+                mesh.corner_vertices.push(y * (columns + 1) + x);
+                mesh.corner_uvs.push(at(x, y).map(|c| c as f32));
+            }
+        }
+    }
+    Ok(Mesh::new(mesh)?)
+}
+
+/// A dim shade with a few hundred bright holes.
+fn pattern() -> Result<ImageMap, Box<dyn Error>> {
+    let size = 256;
+    let texel = |i: u32| {
+        let (x, y) = (i % size, i / size);
+        let hole = (x / 8 + y / 8 * 64) as u64;
+        let inside = (x % 8).abs_diff(4) + (y % 8).abs_diff(4) < 3;
+        if inside && hash(hole).is_multiple_of(3) {
+            40.0 + (hash(hole) >> 58) as f32
+        } else {
+            0.05
+        }
+    };
+    let texels = (0..size * size).map(texel).collect();
+    Ok(ImageMap::new(size, size, 1, texels, false)?)
+}
+
+fn plot(path: &str, lines: &[Vec<(f64, f64)>; 3]) -> Result<(), Box<dyn Error>> {
+    let root = SVGBackend::new(path, (720, 440)).into_drawing_area();
+    root.fill(&WHITE)?;
+    let errors = || lines.iter().flatten().map(|p| p.1);
+    let low = errors().fold(f64::INFINITY, f64::min) / 1.5;
+    let high = errors().fold(0.0, f64::max) * 1.5;
+    let mut chart = ChartBuilder::on(&root)
+        .caption("Light from a textured lamp", ("sans-serif", 18))
+        .margin(12)
+        .x_label_area_size(44)
+        .y_label_area_size(72)
+        .build_cartesian_2d((12.0..90_000.0).log_scale(), (low..high).log_scale())?;
+    chart
+        .configure_mesh()
+        .x_desc("samples")
+        .y_desc("relative error (root mean square)")
+        .y_label_formatter(&|y| format!("{y:.0e}"))
+        .light_line_style(BLACK.mix(0.05))
+        .draw()?;
+    let colors = [
+        RGBColor(213, 94, 0),
+        RGBColor(0, 158, 115),
+        RGBColor(0, 114, 178),
+    ];
+    for ((name, line), color) in NAMES.iter().zip(lines).zip(colors) {
+        let series = LineSeries::new(line.iter().copied(), color.stroke_width(2));
+        chart
+            .draw_series(series)?
+            .label(*name)
+            .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 16, y)], color));
+    }
+    chart
+        .configure_series_labels()
+        .background_style(WHITE)
+        .draw()?;
+    root.present()?;
+    Ok(())
+}
