@@ -155,19 +155,23 @@ impl Graph {
             let path = default.map(|name| format!("/{}", name.trim_start_matches('/')));
             all.default = path;
         }
-        let sublayers = match layer.try_field(&root, "subLayers").ok().flatten() {
-            Some(value) => match value.into_owned() {
-                sdf::Value::StringVec(v) => v,
-                sdf::Value::AssetPathVec(v) => v.iter().map(|p| p.to_string()).collect(),
-                _ => Vec::new(),
-            },
-            None => Vec::new(),
+        self.sublayers(layer.as_ref(), place)
+    }
+
+    /// Where the sublayers of the layer at `place` are, those that are there.
+    fn sublayers(
+        &self,
+        layer: &dyn sdf::AbstractData,
+        place: &ResolvedPath,
+    ) -> Result<Vec<ResolvedPath>, Broken> {
+        let value = layer.try_field(&sdf::Path::abs_root(), "subLayers");
+        let assets = match value.ok().flatten().map(|value| value.into_owned()) {
+            Some(sdf::Value::StringVec(v)) => v,
+            Some(sdf::Value::AssetPathVec(v)) => v.iter().map(|p| p.to_string()).collect(),
+            _ => Vec::new(),
         };
-        let mut found = Vec::new();
-        for asset in sublayers {
-            found.extend(self.resolve(&asset, place)?);
-        }
-        Ok(found)
+        let found = assets.iter().map(|asset| self.resolve(asset, place));
+        found.filter_map(Result::transpose).collect()
     }
 
     fn resolve(&self, asset: &str, from: &ResolvedPath) -> Result<Option<ResolvedPath>, Broken> {

@@ -3,41 +3,13 @@
 use super::MAX_ITEMS;
 use super::crate_guard::{Budget, Tables};
 use super::cursor::{Broken, Cursor, encoded_sizes};
+use super::kind::{self, element_size, is_packable, is_real};
 
 /// Levels of dictionaries and time samples within values.
 const MAX_DEPTH: u32 = 32;
 
 /// What the reader keeps for a small value, roughly.
 const SMALL: u64 = 64;
-
-/// Types by number, from `pxr/usd/usd/crateDataTypes.h`.
-mod kind {
-    pub const STRING: u8 = 10;
-    pub const TOKEN: u8 = 11;
-    pub const ASSET_PATH: u8 = 12;
-    pub const DICTIONARY: u8 = 31;
-    pub const TOKEN_LIST_OP: u8 = 32;
-    pub const STRING_LIST_OP: u8 = 33;
-    pub const PATH_LIST_OP: u8 = 34;
-    pub const REFERENCE_LIST_OP: u8 = 35;
-    pub const INT_LIST_OP: u8 = 36;
-    pub const INT64_LIST_OP: u8 = 37;
-    pub const UINT_LIST_OP: u8 = 38;
-    pub const UINT64_LIST_OP: u8 = 39;
-    pub const PATH_VECTOR: u8 = 40;
-    pub const TOKEN_VECTOR: u8 = 41;
-    pub const VARIANT_SELECTION_MAP: u8 = 45;
-    pub const TIME_SAMPLES: u8 = 46;
-    pub const PAYLOAD: u8 = 47;
-    pub const DOUBLE_VECTOR: u8 = 48;
-    pub const LAYER_OFFSET_VECTOR: u8 = 49;
-    pub const STRING_VECTOR: u8 = 50;
-    pub const UNREGISTERED_LIST_OP: u8 = 54;
-    pub const PAYLOAD_LIST_OP: u8 = 55;
-    pub const TIME_CODE: u8 = 56;
-    pub const PATH_EXPRESSION: u8 = 57;
-    pub const RELOCATES: u8 = 58;
-}
 
 /// A value's type, flags and place: 8 flag bits, 8 of type, 48 of payload.
 #[derive(Clone, Copy)]
@@ -359,39 +331,6 @@ impl<'a> Values<'a> {
         }
         Ok(bytes)
     }
-}
-
-fn is_real(kind: u8) -> bool {
-    matches!(kind, 7..=9 | kind::TIME_CODE | kind::DOUBLE_VECTOR)
-}
-
-/// Whether arrays of this type may be packed: integers and real numbers.
-fn is_packable(kind: u8) -> bool {
-    matches!(kind, 3..=6) || is_real(kind)
-}
-
-/// Bytes of an entry of an array in the file.
-fn element_size(kind: u8) -> Option<u64> {
-    Some(match kind {
-        1 | 2 => 1,
-        7 => 2,
-        3 | 4 | 8 => 4,
-        5 | 6 | 9 | kind::TIME_CODE | kind::DOUBLE_VECTOR => 8,
-        // Matrices of 2, 3 and 4 rows of doubles.
-        13 => 32,
-        14 => 72,
-        15 => 128,
-        // Quaternions of doubles, floats and halves.
-        16 => 32,
-        17 => 16,
-        18 => 8,
-        // Vectors of 2, 3 and 4: doubles, floats, halves, integers.
-        19..=30 => {
-            let components = 2 + (kind as u64 - 19) / 4;
-            components * [8, 4, 2, 4][(kind as usize - 19) % 4]
-        }
-        _ => return None,
-    })
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ mod crate_guard;
 mod crate_values;
 mod cursor;
 mod curves;
+mod kind;
 mod mesh;
 mod names;
 mod stage;
