@@ -26,7 +26,7 @@ const MAX_LISTS: usize = 4;
 
 /// Words in one prim, those of its children left out, and in one block of metadata.
 /// A property has two or more.
-const MAX_WORDS: u32 = 20_000;
+const MAX_WORDS: u32 = 8_000;
 
 /// Bytes of paths that any file may spell, however small it is, and those allowed for
 /// each of its bytes.
@@ -344,10 +344,10 @@ mod tests {
     #[test]
     fn what_is_searched_one_by_one_is_counted() {
         let many = |text: &str, count: usize| text.repeat(count);
-        let error = refused(&format!("def \"a\" {{ {} }}", many("int x ", 10_001)));
-        assert!(error.contains("more than 20000 words"), "{error}");
-        let error = refused(&format!("({})", many("x = 1 ", 20_001)));
-        assert!(error.contains("more than 20000 words"), "{error}");
+        let error = refused(&format!("def \"a\" {{ {} }}", many("int x ", 4_001)));
+        assert!(error.contains("more than 8000 words"), "{error}");
+        let error = refused(&format!("({})", many("x = 1 ", 8_001)));
+        assert!(error.contains("more than 8000 words"), "{error}");
         let error = refused(&format!("def \"a\" ( x = [{}]) {{}}", many("\"x\" ", 4097)));
         assert!(error.contains("more than 4096 items"), "{error}");
         let order = format!(
