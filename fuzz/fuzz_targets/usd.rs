@@ -5,7 +5,19 @@
 use libfuzzer_sys::fuzz_target;
 use std::io::Write;
 
-fuzz_target!(|bytes: &[u8]| {
+/// Panics of `openusd` over contents that contradict each other are caught and become
+/// errors; those of our own code are bugs.
+fn abort_on_our_panics() {
+    std::panic::set_hook(Box::new(|panic| {
+        let file = panic.location().map_or("", |place| place.file());
+        if !file.contains("/openusd-") {
+            eprintln!("{panic}");
+            std::process::abort();
+        }
+    }));
+}
+
+fuzz_target!(init: abort_on_our_panics(), |bytes: &[u8]| {
     // The reader opens files by itself: USD files may name others.
     let named = tempfile::Builder::new().suffix(".usd").tempfile();
     let Ok(mut file) = named else { return };

@@ -5,7 +5,9 @@
 //! inherits `/a`) end the process there, and arcs to arcs can multiply without
 //! end. So the arcs are followed here first, on the specs as they are written.
 
+use super::clips;
 use super::cursor::Broken;
+use super::names;
 use super::stage::load;
 use openusd::ar::{DefaultResolver, ResolvedPath, Resolver};
 use openusd::{sdf, usdc};
@@ -59,7 +61,7 @@ pub(super) fn check(root: &ResolvedPath, bytes: &[u8]) -> Result<(), Broken> {
     }
 }
 
-/// Whether a layer can have arcs at all; text without these words cannot.
+/// Whether a layer can have arcs, clips or variants at all; text without these words cannot.
 fn may_refer(bytes: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(bytes) else {
         return true;
@@ -70,6 +72,9 @@ fn may_refer(bytes: &[u8]) -> bool {
         "inherits",
         "specializes",
         "subLayers",
+        "clips",
+        "relocates",
+        "variant",
     ];
     words.iter().any(|word| text.contains(word)) || bytes.starts_with(usdc::MAGIC)
 }
@@ -122,40 +127,51 @@ impl Graph {
             return Ok(Vec::new());
         };
         for path in layer.spec_paths() {
-            if path.is_property_path() || path.is_abs_root() {
+            // As if every variant were chosen: arcs name prims without their variants.
+            let prim = path.strip_all_variant_selections();
+            if prim.is_abs_root() || prim.as_str().contains(['.', '[']) {
                 continue;
             }
-            let parent = path.parent().unwrap_or_else(sdf::Path::abs_root);
+            if !names::is_prim_path(prim.as_str()) {
+                return Err(Broken(format!("{path} is no path of a prim")));
+            }
+            let parent = prim.parent().unwrap_or_else(sdf::Path::abs_root);
             let siblings = all.children.entry(parent.to_string()).or_default();
-            siblings.insert(path.to_string());
+            siblings.insert(prim.to_string());
+            check_fields(layer.as_ref(), &path)?;
             let targets = self.targets(layer.as_ref(), &path, unit, place)?;
             if !targets.is_empty() {
                 all.arcs
-                    .entry(path.to_string())
+                    .entry(prim.to_string())
                     .or_default()
                     .extend(targets);
             }
         }
         let root = sdf::Path::abs_root();
+        check_fields(layer.as_ref(), &root)?;
         let default = layer.try_field(&root, "defaultPrim").ok().flatten();
         let default = default.and_then(|value| value.into_owned().try_as_token());
         if place == &self.places[unit] {
             let path = default.map(|name| format!("/{}", name.trim_start_matches('/')));
             all.default = path;
         }
-        let sublayers = match layer.try_field(&root, "subLayers").ok().flatten() {
-            Some(value) => match value.into_owned() {
-                sdf::Value::StringVec(v) => v,
-                sdf::Value::AssetPathVec(v) => v.iter().map(|p| p.to_string()).collect(),
-                _ => Vec::new(),
-            },
-            None => Vec::new(),
+        self.sublayers(layer.as_ref(), place)
+    }
+
+    /// Where the sublayers of the layer at `place` are, those that are there.
+    fn sublayers(
+        &self,
+        layer: &dyn sdf::AbstractData,
+        place: &ResolvedPath,
+    ) -> Result<Vec<ResolvedPath>, Broken> {
+        let value = layer.try_field(&sdf::Path::abs_root(), "subLayers");
+        let assets = match value.ok().flatten().map(|value| value.into_owned()) {
+            Some(sdf::Value::StringVec(v)) => v,
+            Some(sdf::Value::AssetPathVec(v)) => v.iter().map(|p| p.to_string()).collect(),
+            _ => Vec::new(),
         };
-        let mut found = Vec::new();
-        for asset in sublayers {
-            found.extend(self.resolve(&asset, place)?);
-        }
-        Ok(found)
+        let found = assets.iter().map(|asset| self.resolve(asset, place));
+        found.filter_map(Result::transpose).collect()
     }
 
     fn resolve(&self, asset: &str, from: &ResolvedPath) -> Result<Option<ResolvedPath>, Broken> {
@@ -199,14 +215,14 @@ impl Graph {
             };
             let path = match prim.is_empty() {
                 true => DEFAULT.to_string(),
-                false => prim.to_string(),
+                false => target_path(path, &prim)?,
             };
             targets.extend(target.map(|unit| Target { unit, path }));
         }
         for name in ["inheritPaths", "specializes"] {
             if let Some(sdf::Value::PathListOp(list)) = field(name) {
-                for path in items(&list) {
-                    let path = path.to_string();
+                for class in items(&list) {
+                    let path = target_path(path, &path.make_absolute(class))?;
                     // The root layer's prim of that path is inherited as well.
                     let units = BTreeSet::from([0, unit]);
                     targets.extend(units.into_iter().map(|unit| Target {
@@ -217,6 +233,35 @@ impl Graph {
             }
         }
         Ok(targets)
+    }
+}
+
+/// Fails where a field of the prim or variant at `path` puts names into paths that they
+/// cannot hold, or lists value clips without end.
+fn check_fields(layer: &dyn sdf::AbstractData, path: &sdf::Path) -> Result<(), Broken> {
+    let fields = layer.list_fields(path).unwrap_or_default();
+    for name in fields.iter().filter(|name| names::in_paths(name)) {
+        let Some(value) = layer.try_field(path, name).ok().flatten() else {
+            continue;
+        };
+        if name == "clips" {
+            clips::check(path, &value)?;
+        } else if let Some(wrong) = names::wrong(name, &value) {
+            let wrong: String = wrong.chars().take(40).collect();
+            return Err(Broken(format!("{name} of {path} cannot name {wrong:?}")));
+        }
+    }
+    Ok(())
+}
+
+/// The path of the prim that an arc from `from` points to.
+fn target_path(from: &sdf::Path, target: &sdf::Path) -> Result<String, Broken> {
+    let plain = target.strip_all_variant_selections().to_string();
+    match names::is_prim_path(&plain) {
+        true => Ok(plain),
+        false => Err(Broken(format!(
+            "{from} refers to <{target}>, which is no path of a prim"
+        ))),
     }
 }
 

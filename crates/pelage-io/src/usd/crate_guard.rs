@@ -26,6 +26,10 @@ const MAX_DEPTH: u32 = 128;
 pub(super) struct Budget(Cell<u64>);
 
 impl Budget {
+    pub(super) fn of(bytes: u64) -> Self {
+        Self(Cell::new(bytes))
+    }
+
     pub(super) fn spend(&self, bytes: u64) -> Result<(), Broken> {
         let left = self.0.get().checked_sub(bytes);
         self.0.set(left.ok_or_else(|| {
@@ -42,14 +46,13 @@ pub(super) struct Tables {
     pub(super) tokens: Vec<u32>,
     /// Token of each string.
     pub(super) strings: Vec<u32>,
-    pub(super) paths: usize,
+    /// Length of each path in bytes.
+    pub(super) paths: Vec<u32>,
 }
 
 /// Fails where reading `bytes` as a crate file could exhaust memory or never end.
 pub(super) fn check(bytes: &[u8]) -> Result<(), Broken> {
-    let budget = Budget(Cell::new(
-        BASE_BUDGET + BUDGET_PER_BYTE * bytes.len() as u64,
-    ));
+    let budget = Budget::of(BASE_BUDGET + BUDGET_PER_BYTE * bytes.len() as u64);
     let version = check_version(bytes)?;
     let sections = Sections::read(bytes)?;
     let tokens = read_tokens(&mut sections.open("TOKENS")?, &budget)?;
@@ -170,8 +173,8 @@ fn all_below(values: &[u32], limit: usize, what: &str, of: &str) -> Result<(), B
     }
 }
 
-/// Walks the tree of paths as the reader will; gives the number of paths.
-fn check_paths(section: &mut Cursor, tokens: &[u32], budget: &Budget) -> Result<usize, Broken> {
+/// Walks the tree of paths as the reader will; gives the lengths of the paths.
+fn check_paths(section: &mut Cursor, tokens: &[u32], budget: &Budget) -> Result<Vec<u32>, Broken> {
     let total = section.count()?;
     let count = section.count()?;
     let paths = section.encoded_ints(count, budget)?;
@@ -184,6 +187,7 @@ fn check_paths(section: &mut Cursor, tokens: &[u32], budget: &Budget) -> Result<
         )));
     }
     all_below(&paths, total as usize, "path entry", "path")?;
+    let mut lengths = vec![1u32; total as usize];
     let mut seen = vec![false; paths.len()];
     let mut pending = vec![(0usize, 0u32, 0u64)];
     if paths.is_empty() {
@@ -203,6 +207,8 @@ fn check_paths(section: &mut Cursor, tokens: &[u32], budget: &Budget) -> Result<
                 length.ok_or_else(|| Broken(format!("path entry {index} names token {name}")))?;
             let path = parent + length as u64 + 1;
             budget.spend(path + 64)?;
+            let longest = &mut lengths[paths[index] as usize];
+            *longest = (*longest).max(u32::try_from(path).unwrap_or(u32::MAX));
             let jump = jumps[index] as i32;
             let (child, sibling) = (jump > 0 || jump == -1, jump >= 0);
             if child && sibling {
@@ -220,7 +226,7 @@ fn check_paths(section: &mut Cursor, tokens: &[u32], budget: &Budget) -> Result<
             index += 1;
         }
     }
-    Ok(total as usize)
+    Ok(lengths)
 }
 
 /// Adds up what decoding every value of every spec would need.
@@ -235,7 +241,7 @@ fn check_specs(
     let paths = section.encoded_ints(count, budget)?;
     let sets = section.encoded_ints(count, budget)?;
     section.encoded_ints(count, budget)?;
-    all_below(&paths, values.tables().paths, "spec", "path")?;
+    all_below(&paths, values.tables().paths.len(), "spec", "path")?;
     all_below(&sets, fieldsets.len(), "spec", "fieldset")?;
     let mut known: Vec<Option<u64>> = vec![None; fields.len()];
     for set in sets {

@@ -1,42 +1,15 @@
 //! How many bytes a value of a `.usdc` file takes once decoded.
 
+use super::MAX_ITEMS;
 use super::crate_guard::{Budget, Tables};
 use super::cursor::{Broken, Cursor, encoded_sizes};
+use super::kind::{self, element_size, is_packable, is_real};
 
 /// Levels of dictionaries and time samples within values.
 const MAX_DEPTH: u32 = 32;
 
 /// What the reader keeps for a small value, roughly.
 const SMALL: u64 = 64;
-
-/// Types by number, from `pxr/usd/usd/crateDataTypes.h`.
-mod kind {
-    pub const STRING: u8 = 10;
-    pub const TOKEN: u8 = 11;
-    pub const ASSET_PATH: u8 = 12;
-    pub const DICTIONARY: u8 = 31;
-    pub const TOKEN_LIST_OP: u8 = 32;
-    pub const STRING_LIST_OP: u8 = 33;
-    pub const PATH_LIST_OP: u8 = 34;
-    pub const REFERENCE_LIST_OP: u8 = 35;
-    pub const INT_LIST_OP: u8 = 36;
-    pub const INT64_LIST_OP: u8 = 37;
-    pub const UINT_LIST_OP: u8 = 38;
-    pub const UINT64_LIST_OP: u8 = 39;
-    pub const PATH_VECTOR: u8 = 40;
-    pub const TOKEN_VECTOR: u8 = 41;
-    pub const VARIANT_SELECTION_MAP: u8 = 45;
-    pub const TIME_SAMPLES: u8 = 46;
-    pub const PAYLOAD: u8 = 47;
-    pub const DOUBLE_VECTOR: u8 = 48;
-    pub const LAYER_OFFSET_VECTOR: u8 = 49;
-    pub const STRING_VECTOR: u8 = 50;
-    pub const UNREGISTERED_LIST_OP: u8 = 54;
-    pub const PAYLOAD_LIST_OP: u8 = 55;
-    pub const TIME_CODE: u8 = 56;
-    pub const PATH_EXPRESSION: u8 = 57;
-    pub const RELOCATES: u8 = 58;
-}
 
 /// A value's type, flags and place: 8 flag bits, 8 of type, 48 of payload.
 #[derive(Clone, Copy)]
@@ -95,6 +68,12 @@ impl<'a> Values<'a> {
             return self.array(rep);
         }
         if rep.is_inlined() {
+            // The one list that the reader looks for in the file all the same.
+            if rep.kind() == kind::PAYLOAD_LIST_OP {
+                return Err(Broken(
+                    "a list of payloads claims to be stored in place".into(),
+                ));
+            }
             return Ok(SMALL + self.text(rep, rep.payload() as u32)?);
         }
         let mut at = Cursor::at(self.bytes, rep.payload())?;
@@ -107,29 +86,41 @@ impl<'a> Values<'a> {
             kind::TOKEN_LIST_OP..=kind::UINT64_LIST_OP
             | kind::UNREGISTERED_LIST_OP
             | kind::PAYLOAD_LIST_OP => self.list_op(rep.kind(), &mut at, depth),
-            kind::PATH_VECTOR => self.indices(&mut at, self.tables.paths, |_| SMALL),
+            kind::PATH_VECTOR => self.paths(&mut at),
             kind::TOKEN_VECTOR => self.tokens(&mut at),
             kind::STRING_VECTOR => self.strings(&mut at),
-            kind::VARIANT_SELECTION_MAP => Ok(SMALL * (1 + at.count_of(8)?)),
-            kind::RELOCATES => Ok(SMALL * (1 + at.count_of(8)?)),
+            kind::VARIANT_SELECTION_MAP => self.pairs(&mut at, |i| self.string(i)),
+            kind::RELOCATES => self.pairs(&mut at, |i| self.path(i)),
             kind::LAYER_OFFSET_VECTOR => Ok(16 * (1 + at.count_of(16)?)),
             kind::DOUBLE_VECTOR => self.numbers(rep, 8),
-            kind::PAYLOAD => Ok(SMALL),
+            kind::PAYLOAD => Ok(SMALL + self.string(at.u32()?)? + self.path(at.u32()?)?),
             _ => Ok(2 * SMALL),
         }
     }
 
     /// Bytes of the text that a single token or string names.
     fn text(&self, rep: Rep, index: u32) -> Result<u64, Broken> {
-        let token = match (rep.kind(), rep.is_inlined()) {
-            (kind::TOKEN, _) => index,
-            (kind::ASSET_PATH | kind::PATH_EXPRESSION, true) => index,
-            (kind::STRING | kind::ASSET_PATH | kind::PATH_EXPRESSION, _) => {
-                self.entry(&self.tables.strings, index, "string")?
-            }
-            _ => return Ok(0),
-        };
-        Ok(self.entry(&self.tables.tokens, token, "token")? as u64)
+        match (rep.kind(), rep.is_inlined()) {
+            (kind::TOKEN, _) => self.token(index),
+            (kind::ASSET_PATH | kind::PATH_EXPRESSION, true) => self.token(index),
+            (kind::STRING | kind::ASSET_PATH | kind::PATH_EXPRESSION, _) => self.string(index),
+            _ => Ok(0),
+        }
+    }
+
+    /// Bytes of the token `index`.
+    fn token(&self, index: u32) -> Result<u64, Broken> {
+        Ok(self.entry(&self.tables.tokens, index, "token")? as u64)
+    }
+
+    /// Bytes of the string `index`.
+    fn string(&self, index: u32) -> Result<u64, Broken> {
+        self.token(self.entry(&self.tables.strings, index, "string")?)
+    }
+
+    /// Bytes of the path `index`.
+    fn path(&self, index: u32) -> Result<u64, Broken> {
+        Ok(self.entry(&self.tables.paths, index, "path")? as u64)
     }
 
     fn entry(&self, table: &[u32], index: u32, what: &str) -> Result<u32, Broken> {
@@ -138,6 +129,20 @@ impl<'a> Values<'a> {
     }
 
     fn array(&self, rep: Rep) -> Result<u64, Broken> {
+        let kind = rep.kind();
+        let is_text = matches!(
+            kind,
+            kind::STRING | kind::ASSET_PATH | kind::PATH_EXPRESSION
+        );
+        let size = match kind {
+            kind::TOKEN => Some(4),
+            _ if is_text => Some(4),
+            _ => element_size(kind),
+        };
+        // Of other types, the reader takes no notice of the flag, nor of a place of 0.
+        let Some(size) = size else {
+            return Err(Broken(format!("an array has entries of type {kind}")));
+        };
         if rep.payload() == 0 {
             return Ok(SMALL);
         }
@@ -145,14 +150,14 @@ impl<'a> Values<'a> {
             return Err(Broken("an array claims to be stored in place".into()));
         }
         let mut at = Cursor::at(self.bytes, rep.payload())?;
-        match rep.kind() {
-            kind::STRING | kind::ASSET_PATH | kind::PATH_EXPRESSION => self.strings(&mut at),
-            // Tokens become shared text: an entry is as small as a number.
-            kind::TOKEN => self.numbers(rep, 4).map(|bytes| 16 * bytes),
-            kind => match element_size(kind) {
-                Some(size) => self.numbers(rep, size),
-                None => Err(Broken(format!("an array has entries of type {kind}"))),
-            },
+        match kind {
+            kind::TOKEN => {
+                let count = self.array_count(&mut at)?;
+                at.room_for(count, 4)?;
+                self.indices(&mut at, count, |i| self.token(i))
+            }
+            _ if is_text => self.strings(&mut at),
+            _ => self.numbers(rep, size),
         }
     }
 
@@ -162,13 +167,7 @@ impl<'a> Values<'a> {
             return Ok(SMALL);
         }
         let mut at = Cursor::at(self.bytes, rep.payload())?;
-        if self.tables.version < [0, 5, 0] {
-            at.u32()?;
-        }
-        let count = match self.tables.version < [0, 7, 0] {
-            true => at.u32()? as u64,
-            false => at.u64()?,
-        };
+        let count = self.array_count(&mut at)?;
         // Short arrays are never packed, whatever their flag says.
         if !rep.is_compressed() || count < 4 {
             at.room_for(count, size)?;
@@ -196,36 +195,55 @@ impl<'a> Values<'a> {
         Ok(SMALL + count.saturating_mul(size.max(4)) + 2 * most)
     }
 
+    /// The number of entries that stands before an array, after its rank in old files.
+    fn array_count(&self, at: &mut Cursor) -> Result<u64, Broken> {
+        if self.tables.version < [0, 5, 0] {
+            at.u32()?;
+        }
+        match self.tables.version < [0, 7, 0] {
+            true => at.u32().map(u64::from),
+            false => at.u64(),
+        }
+    }
+
     fn strings(&self, at: &mut Cursor) -> Result<u64, Broken> {
-        let tables = self.tables;
-        self.indices(at, tables.strings.len(), |i| {
-            tables.tokens[tables.strings[i] as usize] as u64
-        })
+        let count = at.count_of(4)?;
+        self.indices(at, count, |i| self.string(i))
     }
 
     fn tokens(&self, at: &mut Cursor) -> Result<u64, Broken> {
-        let tokens = &self.tables.tokens;
-        self.indices(at, tokens.len(), |i| tokens[i] as u64)
+        let count = at.count_of(4)?;
+        self.indices(at, count, |i| self.token(i))
     }
 
-    /// Bytes of a counted list of indices below `limit`, each worth `weight` more.
+    fn paths(&self, at: &mut Cursor) -> Result<u64, Broken> {
+        let count = at.count_of(4)?;
+        self.indices(at, count, |i| self.path(i))
+    }
+
+    /// Bytes of a counted list of pairs of indices.
+    fn pairs(
+        &self,
+        at: &mut Cursor,
+        bytes: impl Fn(u32) -> Result<u64, Broken>,
+    ) -> Result<u64, Broken> {
+        let count = at.count_of(8)?;
+        self.indices(at, 2 * count, bytes)
+    }
+
+    /// Bytes of a list of indices, each worth what stands there.
     fn indices(
         &self,
         at: &mut Cursor,
-        limit: usize,
-        weight: impl Fn(usize) -> u64,
+        count: u64,
+        bytes: impl Fn(u32) -> Result<u64, Broken>,
     ) -> Result<u64, Broken> {
-        let count = at.count_of(4)?;
         self.budget.spend(count)?;
-        let mut bytes = SMALL;
+        let mut all = SMALL;
         for _ in 0..count {
-            let index = at.u32()? as usize;
-            if index >= limit {
-                return Err(Broken(format!("a list names entry {index} of {limit}")));
-            }
-            bytes += 32 + weight(index);
+            all += 32 + bytes(at.u32()?)?;
         }
-        Ok(bytes)
+        Ok(all)
     }
 
     /// A number, then for each entry a key and an offset to where its value's
@@ -234,9 +252,9 @@ impl<'a> Values<'a> {
         let count = at.u64()?;
         let mut bytes = SMALL;
         for _ in 0..count {
-            self.entry(&self.tables.strings, at.u32()?, "string")?;
+            let key = self.string(at.u32()?)?;
             let rep = self.distant_rep(at)?;
-            bytes += SMALL + self.value(rep, depth + 1)?;
+            bytes += SMALL + key + self.value(rep, depth + 1)?;
         }
         Ok(bytes)
     }
@@ -268,10 +286,20 @@ impl<'a> Values<'a> {
         let lists = (at.u8()? >> 1).count_ones();
         let mut bytes = SMALL;
         for _ in 0..lists {
+            let count = at.clone().u64()?;
+            let is_composed = !matches!(
+                kind,
+                kind::PATH_LIST_OP | kind::INT_LIST_OP..=kind::UINT64_LIST_OP
+            );
+            if is_composed && count > MAX_ITEMS as u64 {
+                return Err(Broken(format!(
+                    "a list has {count} items, more than {MAX_ITEMS}"
+                )));
+            }
             bytes += match kind {
                 kind::TOKEN_LIST_OP => self.tokens(at)?,
                 kind::STRING_LIST_OP | kind::UNREGISTERED_LIST_OP => self.strings(at)?,
-                kind::PATH_LIST_OP => self.indices(at, self.tables.paths, |_| SMALL)?,
+                kind::PATH_LIST_OP => self.paths(at)?,
                 kind::INT_LIST_OP | kind::UINT_LIST_OP => self.plain(at, 4)?,
                 kind::INT64_LIST_OP | kind::UINT64_LIST_OP => self.plain(at, 8)?,
                 _ => self.arcs(kind, at, depth)?,
@@ -290,53 +318,86 @@ impl<'a> Values<'a> {
     fn arcs(&self, kind: u8, at: &mut Cursor, depth: u32) -> Result<u64, Broken> {
         let count = at.u64()?;
         at.room_for(count, 8)?;
+        let mut bytes = 0;
         for _ in 0..count {
-            self.entry(&self.tables.strings, at.u32()?, "string")?;
-            let path = at.u32()? as usize;
-            if path >= self.tables.paths {
-                return Err(Broken(format!("a reference names path {path}")));
-            }
+            bytes += 4 * SMALL + self.string(at.u32()?)? + self.path(at.u32()?)?;
             if kind == kind::REFERENCE_LIST_OP || self.tables.version >= [0, 8, 0] {
                 at.take(16)?;
             }
             if kind == kind::REFERENCE_LIST_OP {
-                self.dictionary(at, depth + 1)?;
+                bytes += self.dictionary(at, depth + 1)?;
             }
             self.budget.spend(4 * SMALL)?;
         }
-        Ok(count * 4 * SMALL)
+        Ok(bytes)
     }
 }
 
-fn is_real(kind: u8) -> bool {
-    matches!(kind, 7..=9 | kind::TIME_CODE | kind::DOUBLE_VECTOR)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Whether arrays of this type may be packed: integers and real numbers.
-fn is_packable(kind: u8) -> bool {
-    matches!(kind, 3..=6) || is_real(kind)
-}
+    const ARRAY: u64 = 1 << 63;
+    const INLINED: u64 = 1 << 62;
 
-/// Bytes of an entry of an array in the file.
-fn element_size(kind: u8) -> Option<u64> {
-    Some(match kind {
-        1 | 2 => 1,
-        7 => 2,
-        3 | 4 | 8 => 4,
-        5 | 6 | 9 | kind::TIME_CODE | kind::DOUBLE_VECTOR => 8,
-        // Matrices of 2, 3 and 4 rows of doubles.
-        13 => 32,
-        14 => 72,
-        15 => 128,
-        // Quaternions of doubles, floats and halves.
-        16 => 32,
-        17 => 16,
-        18 => 8,
-        // Vectors of 2, 3 and 4: doubles, floats, halves, integers.
-        19..=30 => {
-            let components = 2 + (kind as u64 - 19) / 4;
-            components * [8, 4, 2, 4][(kind as usize - 19) % 4]
+    /// Bytes of the value at `rep` in a file that holds `numbers` from byte 0 on, whose
+    /// only token, string and path are long.
+    fn bytes(rep: u64, numbers: &[u32]) -> Result<u64, Broken> {
+        let file: Vec<u8> = numbers.iter().flat_map(|n| n.to_le_bytes()).collect();
+        let tables = Tables {
+            version: [0, 8, 0],
+            tokens: vec![1_000_000],
+            strings: vec![0],
+            paths: vec![1_000_000],
+        };
+        let budget = Budget::of(1 << 30);
+        Values::new(&file, &tables, &budget).bytes(rep)
+    }
+
+    fn rep(kind: u8, payload: u64) -> u64 {
+        (kind as u64) << 48 | payload
+    }
+
+    #[test]
+    fn flags_that_the_reader_takes_no_notice_of_are_refused() {
+        for kind in [
+            kind::PAYLOAD_LIST_OP,
+            kind::TOKEN_LIST_OP,
+            kind::TIME_SAMPLES,
+        ] {
+            assert!(bytes(ARRAY | rep(kind, 0), &[0; 8]).is_err(), "{kind}");
         }
-        _ => return None,
-    })
+        assert!(bytes(INLINED | rep(kind::PAYLOAD_LIST_OP, 0), &[0; 8]).is_err());
+    }
+
+    #[test]
+    fn every_copy_of_a_long_token_or_path_counts() {
+        let three = [9, 3, 0, 0, 0, 0, 0, 0];
+        for rep in [
+            ARRAY | rep(kind::TOKEN, 4),
+            ARRAY | rep(kind::STRING, 4),
+            rep(kind::PATH_VECTOR, 4),
+            rep(kind::TOKEN_VECTOR, 4),
+            rep(kind::VARIANT_SELECTION_MAP, 4),
+            rep(kind::RELOCATES, 4),
+        ] {
+            let bytes = bytes(rep, &[&three[..], &[0; 8]].concat()).unwrap();
+            assert!(bytes > 3_000_000, "{bytes}");
+        }
+        let payload = bytes(rep(kind::PAYLOAD, 4), &three).unwrap_err();
+        assert!(payload.0.contains("string 3 of 1"), "{payload:?}");
+    }
+
+    #[test]
+    fn lists_that_are_composed_are_short() {
+        let mut file = vec![2u8];
+        file.extend((MAX_ITEMS as u64 + 1).to_le_bytes());
+        file.resize(40_000, 0);
+        let numbers: Vec<u32> = file
+            .chunks(4)
+            .map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]))
+            .collect();
+        let error = bytes(rep(kind::TOKEN_LIST_OP, 0), &numbers).unwrap_err();
+        assert!(error.0.contains("4097 items"), "{error:?}");
+    }
 }

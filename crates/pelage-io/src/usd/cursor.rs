@@ -113,7 +113,14 @@ impl<'a> Cursor<'a> {
                 "it claims that {size} packed bytes unpack to {unpacked}"
             )));
         }
-        self.take(size as usize)
+        let block = self.take(size as usize)?;
+        // Blocks above 2 GiB come in chunks, which the reader does not know.
+        match block.first() {
+            Some(&chunks) if chunks != 0 => {
+                Err(Broken(format!("a packed block has {chunks} chunks")))
+            }
+            _ => Ok(block),
+        }
     }
 
     /// Unpacks a block of between `least` and `most` bytes.
@@ -125,13 +132,9 @@ impl<'a> Cursor<'a> {
     ) -> Result<Vec<u8>, Broken> {
         let packed = self.packed(least)?;
         budget.spend(most)?;
-        let Some((&chunks, block)) = packed.split_first() else {
+        let Some((_, block)) = packed.split_first() else {
             return Err(Broken("a packed block is empty".into()));
         };
-        // Blocks above 2 GiB come in chunks, which the reader does not know.
-        if chunks != 0 {
-            return Err(Broken(format!("a packed block has {chunks} chunks")));
-        }
         let mut output = vec![0; most as usize];
         let size = lz4_flex::decompress_into(block, &mut output)
             .map_err(|error| Broken(format!("a packed block cannot be unpacked: {error}")))?;

@@ -77,6 +77,7 @@ impl<'a> Reader<'a> {
             attributes: Vec::new(),
             faults: Vec::new(),
         };
+        scene.property_names(prim)?;
         for attribute in scene.decoded(prim, scene.stage.prim(prim.clone()).attributes())? {
             let name = attribute.path().property_suffix().to_owned();
             let name = name.trim_start_matches('.');

@@ -196,7 +196,7 @@ impl Primvars<'_> {
     /// `primvars:st`, else the first primvar of a type of texture coordinates.
     fn uvs(&self) -> Result<Vec<[f32; 2]>, ReadError> {
         let prim = self.scene.stage.prim(self.prim.clone());
-        let names = self.scene.decoded(self.prim, prim.property_names())?;
+        let names = self.scene.property_names(self.prim)?;
         let mut candidates = Vec::new();
         for name in names.iter().filter(|n| n.starts_with("primvars:")) {
             let type_name = prim.attribute(name.clone()).type_name();

@@ -7,13 +7,18 @@
 //! ones are not. USDZ packages are not read.
 
 mod arcs;
+mod clips;
 mod crate_guard;
 mod crate_values;
 mod cursor;
 mod curves;
+mod kind;
 mod mesh;
+mod names;
 mod stage;
 mod text_guard;
+mod text_tokens;
+mod text_tuples;
 mod values;
 mod xform;
 
@@ -23,6 +28,9 @@ use crate::{CurveFile, MeshFile, ReadError};
 use openusd::sdf;
 use stage::{Scene, with_scene};
 use std::path::Path;
+
+/// Items of a list that layers add to and take from; they are compared one by one.
+const MAX_ITEMS: u32 = 4096;
 
 /// Reads the meshes of `path` at `time`: those at or below the prim `prim`
 /// (a path like `/World/body`), or all.
@@ -96,7 +104,7 @@ fn frames(scene: &Scene, prims: &[sdf::Path]) -> Result<Vec<f64>, ReadError> {
             let order = order.and_then(|v| v.try_as_token_vec());
             for name in order.unwrap_or_default() {
                 let name = name.as_str().trim_start_matches("!invert!").to_owned();
-                if name.starts_with("xformOp:") {
+                if name.starts_with("xformOp:") && names::is_property(&name) {
                     times.extend(scene.sample_times(&above, &name)?);
                 }
             }

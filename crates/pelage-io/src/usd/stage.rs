@@ -1,7 +1,7 @@
 //! Opens a USD stage so that no file can end the process.
 
 use super::cursor::Broken;
-use super::{arcs, crate_guard, text_guard};
+use super::{arcs, crate_guard, names, text_guard};
 use crate::ReadError;
 use crate::source::read_bytes;
 use openusd::{ar, sdf, usd};
@@ -157,6 +157,10 @@ impl Scene {
             }
             let children = self.decoded(&path, self.stage.prim(path.clone()).child_names())?;
             for name in children.iter().rev() {
+                // Crates list children in a field of their own, whose names are free.
+                if !names::is_prim(name) {
+                    return Err(self.error(&path, format!("a child cannot be named {name:?}")));
+                }
                 pending.push(self.decoded(&path, path.append_path(name.as_str()))?);
             }
         }
@@ -192,6 +196,16 @@ impl Scene {
         Ok(name.map(String::from).unwrap_or_default())
     }
 
+    /// Names of the properties of a prim. Crates list them in a field of its own, and
+    /// the attributes by those names may only be asked for once they are checked.
+    pub(super) fn property_names(&self, prim: &sdf::Path) -> Result<Vec<String>, ReadError> {
+        let all = self.decoded(prim, self.stage.prim(prim.clone()).property_names())?;
+        match all.iter().find(|name| !names::is_property(name)) {
+            Some(name) => Err(self.error(prim, format!("no property can have the name {name:?}"))),
+            None => Ok(all.iter().map(|name| name.to_string()).collect()),
+        }
+    }
+
     /// The attribute `name` of the prim at `path`, whether it is there or not.
     pub(super) fn attribute(&self, path: &sdf::Path, name: &str) -> usd::Attribute {
         self.stage.prim(path.clone()).attribute(name)
@@ -201,7 +215,11 @@ impl Scene {
 /// Reads a layer and checks it.
 pub(super) fn load(path: &Path) -> Result<Vec<u8>, ReadError> {
     let bytes = read_bytes(path)?;
-    if bytes.starts_with(b"PK") {
+    // An archive may start with anything, and `openusd` goes by the name.
+    let is_package = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("usdz"));
+    if is_package || bytes.starts_with(b"PK") {
         return Err(ReadError::unsupported(path, "USDZ packages are not read")
             .help("unpack it (it is a zip archive) and read the layer inside"));
     }

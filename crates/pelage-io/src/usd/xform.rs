@@ -3,6 +3,7 @@
 //! Source: OpenUSD `pxr/usd/usdGeom/xformable.h`. USD multiplies row vectors, so
 //! its first operation is the outermost; columns here make that a plain product.
 
+use super::names;
 use super::stage::Scene;
 use crate::ReadError;
 use glam::{DMat4, DQuat, DVec3};
@@ -43,6 +44,10 @@ impl Scene {
                 Some(name) => (name, true),
                 None => (entry.as_str(), false),
             };
+            if !names::is_property(name) {
+                let message = format!("no property can have the name {name:?}");
+                return Err(self.error(format!("{prim}.xformOpOrder"), message));
+            }
             let Some(value) = self.value(prim, name, time)? else {
                 let message = "xformOpOrder names it, but it has no value";
                 return Err(self.error(format!("{prim}.{name}"), message));

@@ -59,6 +59,34 @@ def usda():
         "not_utf8": (HEADER + 'def "').encode() + b"\xff\xfe\xfa",
         "deep_prims": HEADER + deep,
         "deep_dictionaries": "#usda 1.0\n" + nested,
+        "ends_in_dictionary": HEADER + "(\n customLayerData = {\n  string a = \"b\"\n",
+        "ends_in_metadata": HEADER + 'def Mesh "body" (\n  references = [ </a>,\n',
+        "bracket_of_other_kind": HEADER + 'def Mesh "body" {\n  int[] faceVertexCounts = [4)\n}\n',
+        "bracket_closed_twice": HEADER + 'def "body" {\n}\n}\n',
+        "comment_not_closed": HEADER + "/* def \"a\" {}\n",
+        "path_not_closed": HEADER + 'def "a" (\n  references = </b\n) {}\n',
+        # Lists within lists are written as text, which doubles with every level.
+        "lists_nest": HEADER + "(\n  a = " + "[" * 60 + '"x"' + "]" * 60 + "\n)\n",
+        "prim_of_no_name": HEADER + 'def "" {}\n',
+        "prim_is_its_own_child": HEADER + 'def "a" {\n  def "." {}\n}\n',
+        "prim_above_itself": HEADER + 'def "a" {\n  def ".." {}\n}\n',
+        "variant_closes_its_path": HEADER + 'def "a" {\n  variantSet "v" = {\n    "x}b" {}\n  }\n}\n',
+        "point_of_two_numbers": mesh(points="[(0, 0, 0), (1, 0), (1, 1, 0), (0, 1, 0)]"),
+        # Going up from a path that ends so never ended.
+        "transform_names_no_property": mesh(more='uniform token[] xformOpOrder = ["a/b}"]'),
+        "variant_chosen_by_no_name": HEADER
+        + 'def "a" (variants = {string v = "x/y}"} variantSets = "v") {\n  variantSet "v" = {}\n}\n',
+        "relocates_no_prim": HEADER + "(\n  relocates = { </a/b}>: </c/d}> }\n)\ndef \"a\" {}\n",
+        "clips_without_end": HEADER
+        + 'def "a" (clips = {dictionary default = {\n  string templateAssetPath = "a.#.usd"\n'
+        + "  double templateStartTime = 0\n  double templateEndTime = 1\n"
+        + "  double templateStride = 1e-300\n}}) {}\n",
+        "inherits_above_itself": HEADER + 'def "a" {\n  def "b" (inherits = <../../a>) {}\n}\n',
+        "inherits_no_prim": HEADER + 'def "a" (inherits = </b/../a/.>) {}\n',
+        "reference_into_variant": HEADER
+        + 'def "a" (variants = {string v = "x"} variantSets = "v") {\n'
+        + '  variantSet "v" = { "x" { def "b" (references = </c>) {} } }\n}\n'
+        + 'def "c" (references = </a/b>) {}\n',
         "counts_too_many": curves(counts="[2, 200000]"),
         "counts_huge": curves(counts="[2147483647, 2147483647]"),
         "counts_negative": curves(counts="[-2, 2]"),
