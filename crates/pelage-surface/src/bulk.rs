@@ -7,18 +7,27 @@
 //! therefore drawn in tiles. A tile row is [`LANES`] such neighbours, whose tables lie
 //! within a few kilobytes; its columns are hairs that follow each other, so that a tile
 //! is copied out in runs. What is drawn for a hair does not depend on the tiles.
+//!
+//! Where the order is of no matter, the runs of neighbours are drawn as they come along
+//! the surface.
 
+use crate::sequence::Run;
 use crate::{RootSampler, SurfacePoint};
 use fearless_simd::{Level, dispatch};
 use std::ops::Range;
 
-/// Neighbours drawn at once.
+/// Neighbours in a row of a tile: enough that waiting for a row's first tables is little
+/// beside drawing it.
 const LANES: usize = 512;
 
+/// Roots drawn at once, whose numbers stay in the first-level cache.
 const BATCH: usize = 64;
 
-/// Hairs that follow each other in a tile: with the roots at 16 bytes, runs of a
-/// kilobyte.
+/// Hairs of an interval whose runs are listed before they are drawn: drawing is compiled
+/// for the processor at hand, and visitors are not.
+const SLICE: u128 = 1 << 14;
+
+/// Hairs that follow each other in a tile; with roots of 16 bytes, runs of 512 bytes.
 const RUN: usize = 32;
 
 /// A tile's rows are padded, since rows a power of two apart would share cache sets.
@@ -45,6 +54,56 @@ impl RootSampler {
             let _ = simd;
             self.fill_blocks(first, roots)
         });
+    }
+
+    /// Calls `visit` with the hairs below `count` whose first number lies in `low..high`
+    /// (`high` up to 2^64) and their roots, a few at a time, in the order of the surface:
+    /// the fastest way where the order of the hairs is of no matter.
+    pub fn roots_in(
+        &self,
+        low: u64,
+        high: u128,
+        count: u64,
+        mut visit: impl FnMut(&[u64], &[SurfacePoint]),
+    ) {
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            self.draw_runs([low as u128, high], count, &mut visit)
+        });
+    }
+
+    #[inline(always)]
+    fn draw_runs(
+        &self,
+        [low, high]: [u128; 2],
+        count: u64,
+        visit: &mut impl FnMut(&[u64], &[SurfacePoint]),
+    ) {
+        let mut hairs = [0; BATCH];
+        let mut roots = [SurfacePoint::default(); BATCH];
+        let mut runs: Vec<Run> = Vec::new();
+        let width = high.saturating_sub(low);
+        let expected = width.saturating_mul(count as u128) >> 64;
+        let slices = expected / SLICE + 1;
+        for slice in 0..slices {
+            let end = |k: u128| low + (width / slices * k).max(width * (k == slices) as u128);
+            runs.clear();
+            self.sequence().runs_in(
+                [end(slice), end(slice + 1)],
+                count,
+                BATCH as u64,
+                &mut |run| runs.push(run),
+            );
+            for run in &runs {
+                let last = run.count - 1;
+                for (k, hair) in hairs.iter_mut().enumerate() {
+                    *hair = run.index(last.min(k as u64));
+                }
+                self.draw(|k| hairs[k], &mut roots);
+                let drawn = run.count as usize;
+                visit(&hairs[..drawn], &roots[..drawn]);
+            }
+        }
     }
 
     #[inline(always)]
@@ -139,6 +198,31 @@ mod tests {
             for (k, root) in roots.iter().enumerate() {
                 prop_assert_eq!(*root, sampler.root(first + k as u64));
             }
+        }
+    }
+
+    #[test]
+    fn the_roots_of_an_interval_are_those_of_its_hairs() {
+        let map = spots();
+        let density = Density {
+            value: 1.0,
+            map: Some((&map, 0, Wrap::Repeat)),
+        };
+        let sampler = RootSampler::new(&sheet(6), &density, 4).unwrap();
+        for (low, high) in [(0, 1 << 64), (1 << 61, 5 << 61), (77, 78)] {
+            let mut found = Vec::new();
+            sampler.roots_in(low, high, 3000, |hairs, roots| {
+                for (&hair, root) in hairs.iter().zip(roots) {
+                    assert_eq!(*root, sampler.root(hair));
+                    found.push(hair);
+                }
+            });
+            let mut expected = Vec::new();
+            let visit = &mut |hair| expected.push(hair);
+            sampler.sequence().indices_in(low, high, 3000, visit);
+            found.sort_unstable();
+            expected.sort_unstable();
+            assert_eq!(found, expected);
         }
     }
 

@@ -108,50 +108,55 @@ impl RootSequence {
     /// the logarithm of `count` (random numbers: to `count`). The order is not that of
     /// the indices.
     pub fn indices_in(&self, low: u64, high: u128, count: u64, visit: &mut impl FnMut(u64)) {
-        if self.spread == Spread::Random {
-            let inside = |x: u64| low <= x && (x as u128) < high;
-            return (0..count)
-                .filter(|&index| inside(self.random(index).0))
-                .for_each(visit);
-        }
-        self.descend(
-            Node {
-                prefix: 0,
-                bits: 0,
-                residue: 0,
-            },
-            low as u128,
-            high,
-            count,
-            visit,
-        );
+        self.runs_in([low as u128, high], count, u64::MAX, &mut |run| {
+            (0..run.count).for_each(|k| visit(run.index(k)));
+        });
     }
 
-    fn descend(&self, node: Node, low: u128, high: u128, count: u64, visit: &mut impl FnMut(u64)) {
+    /// The same indices in runs of at most `most`, ordered by their first numbers from
+    /// run to run: the finer the runs, the nearer their hairs.
+    pub(crate) fn runs_in(
+        &self,
+        [low, high]: [u128; 2],
+        count: u64,
+        most: u64,
+        visit: &mut impl FnMut(Run),
+    ) {
+        if self.spread == Spread::Random {
+            return (0..count)
+                .filter(|&index| {
+                    let x = self.random(index).0 as u128;
+                    low <= x && x < high
+                })
+                .for_each(|index| visit(Run::one(index)));
+        }
+        let interval = Interval {
+            low,
+            high,
+            count,
+            most,
+        };
+        let all = Node {
+            prefix: 0,
+            bits: 0,
+            residue: 0,
+        };
+        self.descend(all, &interval, visit);
+    }
+
+    fn descend(&self, node: Node, wanted: &Interval, visit: &mut impl FnMut(Run)) {
         let (start, end) = node.interval();
-        if node.residue >= count || end <= low || start >= high {
+        if node.residue >= wanted.count || end <= wanted.low || start >= wanted.high {
             return;
         }
-        let step = if node.bits < 64 { 1u64 << node.bits } else { 0 };
-        let inside = low <= start && end <= high;
-        let alone = step == 0
-            || node
-                .residue
-                .checked_add(step)
-                .is_none_or(|next| next >= count);
-        if inside {
-            let mut index = node.residue;
-            loop {
-                visit(index);
-                match index.checked_add(step) {
-                    Some(next) if step > 0 && next < count => index = next,
-                    _ => break,
-                }
-            }
-        } else if alone {
+        let run = node.run(wanted.count);
+        let inside = wanted.low <= start && end <= wanted.high;
+        if inside && run.count <= wanted.most {
+            visit(run);
+        } else if run.count == 1 {
             let x = self.sample(node.residue).0 as u128;
-            if low <= x && x < high {
-                visit(node.residue);
+            if inside || wanted.low <= x && x < wanted.high {
+                visit(run);
             }
         } else {
             let own = self.first(node.residue) >> node.bits & 1;
@@ -159,17 +164,50 @@ impl RootSequence {
                 let residue = if bit == own {
                     node.residue
                 } else {
-                    node.residue | step
+                    node.residue | run.step
                 };
                 let child = Node {
                     prefix: node.prefix << 1 | bit as u128,
                     bits: node.bits + 1,
                     residue,
                 };
-                self.descend(child, low, high, count, visit);
+                self.descend(child, wanted, visit);
             }
         }
     }
+}
+
+/// Indices that are a step apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Run {
+    first: u64,
+    step: u64,
+    pub count: u64,
+}
+
+impl Run {
+    fn one(index: u64) -> Self {
+        Self {
+            first: index,
+            step: 0,
+            count: 1,
+        }
+    }
+
+    /// Index number `k` of the run.
+    #[inline(always)]
+    pub fn index(&self, k: u64) -> u64 {
+        self.first + k * self.step
+    }
+}
+
+/// Which indices are wanted: those below `count` with a first number in `low..high`, at
+/// most `most` a run.
+struct Interval {
+    low: u128,
+    high: u128,
+    count: u64,
+    most: u64,
 }
 
 /// The numbers that start with `bits` given bits, and the smallest index of one.
@@ -184,6 +222,18 @@ impl Node {
     fn interval(&self) -> (u128, u128) {
         let shift = 64 - self.bits;
         (self.prefix << shift, (self.prefix + 1) << shift)
+    }
+
+    /// The indices below `count`, of which there is one.
+    fn run(&self, count: u64) -> Run {
+        match 1u64.checked_shl(self.bits) {
+            None => Run::one(self.residue),
+            Some(step) => Run {
+                first: self.residue,
+                step,
+                count: (count - self.residue).div_ceil(step),
+            },
+        }
     }
 }
 
@@ -324,12 +374,29 @@ mod tests {
         }
     }
 
+    #[test]
+    fn fine_runs_follow_each_other_along_the_first_number() {
+        let sequence = RootSequence::new(3, Spread::Stratified);
+        let mut highest = 0;
+        let mut found = 0;
+        sequence.runs_in([0, 1 << 64], 5000, 8, &mut |run| {
+            assert!(run.count <= 8);
+            let numbers = (0..run.count).map(|k| sequence.sample(run.index(k)).0);
+            let numbers: Vec<u64> = numbers.collect();
+            assert!(numbers.iter().all(|&x| x >= highest));
+            highest = numbers.into_iter().fold(highest, u64::max);
+            found += run.count;
+        });
+        assert_eq!(found, 5000);
+    }
+
     proptest! {
         #[test]
         fn listing_an_interval_finds_exactly_its_hairs(
-            seed: u64, count in 0u64..600, a: u64, b: u64,
+            seed: u64, count in 0u64..600, a: u64, b: u64, dice: bool,
         ) {
-            let sequence = RootSequence::new(seed, Spread::Stratified);
+            let spread = if dice { Spread::Random } else { Spread::Stratified };
+            let sequence = RootSequence::new(seed, spread);
             let (low, high) = (a.min(b), a.max(b) as u128 + 1);
             let mut found = Vec::new();
             sequence.indices_in(low, high, count, &mut |i| found.push(i));
