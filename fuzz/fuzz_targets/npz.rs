@@ -12,5 +12,7 @@ fuzz_target!(|bytes: &[u8]| {
     if file.write_all(bytes).is_err() {
         return;
     }
-    let _ = pelage_io::read_npz_curves(file.path());
+    for time in [None, Some(1.5)] {
+        let _ = pelage_io::read_npz_curves(file.path(), time);
+    }
 });

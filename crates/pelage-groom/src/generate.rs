@@ -8,7 +8,7 @@ use crate::capture::{Capture, Dropped};
 use crate::clock::{Clock, Stage};
 use crate::evaluate::Scratch;
 use crate::plan::Plan;
-use pelage_strands::{Sink, SinkError, StrandBuffer, StreamInfo};
+use pelage_strands::{Amount, Sink, SinkError, StrandBuffer, StreamInfo};
 use pelage_surface::Mesh;
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -30,7 +30,7 @@ pub struct Request {
     pub hairs: Range<u64>,
     /// Threads to use; at least one is.
     pub threads: usize,
-    /// What the sink is told before the first strand.
+    /// What the sink is told before the first strand; how much will come is added.
     pub info: StreamInfo,
 }
 
@@ -82,7 +82,6 @@ pub fn generate(
     progress: &mut dyn FnMut(u64) -> bool,
 ) -> Result<Report, GenerateError> {
     let mut report = Report::default();
-    sink.begin(&request.info)?;
     let frames = request.info.frames.len().max(1);
     let hairs = if plan.count() == 0 {
         0..0
@@ -90,6 +89,13 @@ pub fn generate(
         request.hairs.clone()
     };
     let total = hairs.end.saturating_sub(hairs.start);
+    sink.begin(&StreamInfo {
+        at_most: Some(Amount {
+            strands: total,
+            vertices: total.saturating_mul(plan.most_vertices()),
+        }),
+        ..request.info.clone()
+    })?;
     for index in 0..frames {
         let frame = request.info.frames.get(index).copied().unwrap_or(0.0);
         let pose = poses(index).map_err(|error| GenerateError::Pose { frame, error })?;

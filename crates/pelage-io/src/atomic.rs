@@ -11,6 +11,7 @@
 use std::fs;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use tempfile::{NamedTempFile, TempPath};
 
 /// Bytes gathered before they go to the system: large enough that the calls do not
@@ -71,6 +72,17 @@ impl AtomicFile {
     /// The path asked for.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Another handle on the bytes, past this one's buffer.
+    pub(crate) fn handle(&self) -> io::Result<Arc<fs::File>> {
+        Ok(Arc::new(self.temporary.get_ref().as_file().try_clone()?))
+    }
+
+    /// Lets the file end at `length` bytes, whatever was written behind that.
+    pub(crate) fn end_at(&mut self, length: u64) -> io::Result<()> {
+        self.flush()?;
+        self.temporary.get_ref().as_file().set_len(length)
     }
 
     /// Hands all bytes to the disk and gives the file its name.

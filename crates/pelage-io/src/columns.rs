@@ -1,16 +1,19 @@
 //! The arrays of a stream of strands as columns of raw little-endian numbers.
 
 use crate::spool::Spool;
-use pelage_strands::StrandBuffer;
+use pelage_strands::{Amount, StrandBuffer};
+use std::fs::File;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 #[cfg(target_endian = "big")]
 compile_error!("columns are spooled as the machine holds them; files want little-endian");
 
-/// One attribute of a strand buffer, positions excepted (those are not spooled).
+/// One attribute of a strand buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Field {
+    Points,
     /// Vertices a curve, as written.
     Counts,
     Widths,
@@ -44,7 +47,7 @@ impl Field {
             HairId => (Scalar::U64, 1),
             Widths | Opacities => (Scalar::F32, 1),
             RootUv | StrandUv => (Scalar::F32, 2),
-            Colors | Normals | Barycentric | RootRest => (Scalar::F32, 3),
+            Points | Colors | Normals | Barycentric | RootRest => (Scalar::F32, 3),
         }
     }
 
@@ -57,7 +60,26 @@ impl Field {
     /// Whether there is an entry a vertex rather than a curve.
     pub(crate) fn is_per_vertex(self) -> bool {
         use Field::*;
-        matches!(self, Widths | Colors | Opacities | Normals)
+        matches!(self, Points | Widths | Colors | Opacities | Normals)
+    }
+
+    /// Whether there are values a frame; the others are those of the first frame.
+    pub(crate) fn moves(self) -> bool {
+        matches!(self, Field::Points | Field::Normals)
+    }
+
+    /// Entries that `amount`, counted as written, has of it.
+    pub(crate) fn entries(self, amount: Amount) -> u64 {
+        if self.is_per_vertex() {
+            amount.vertices
+        } else {
+            amount.strands
+        }
+    }
+
+    /// Bytes of those entries; `None` for more than any file holds.
+    pub(crate) fn size(self, amount: Amount) -> Option<u64> {
+        self.entries(amount).checked_mul(self.stride() as u64)
     }
 
     /// The entries of `strands`; empty where the attribute is absent (and for
@@ -65,6 +87,7 @@ impl Field {
     fn bytes(self, strands: &StrandBuffer) -> &[u8] {
         use bytemuck::cast_slice;
         match self {
+            Field::Points => cast_slice(&strands.points),
             Field::Counts => &[],
             Field::Widths => cast_slice(&strands.widths),
             Field::Colors => cast_slice(&strands.colors),
@@ -98,6 +121,17 @@ impl Ends {
         match self {
             Ends::Real => real,
             Ends::Doubled => real + 2,
+        }
+    }
+
+    /// What is written of `real` strands and vertices; stops at the largest number.
+    pub(crate) fn amount(self, real: Amount) -> Amount {
+        let added = self.count(0) as u64;
+        Amount {
+            strands: real.strands,
+            vertices: real
+                .vertices
+                .saturating_add(real.strands.saturating_mul(added)),
         }
     }
 
@@ -140,7 +174,7 @@ fn double_ends<const N: usize>(bytes: &[u8], offsets: &[u32], out: &mut Vec<u8>)
     }
 }
 
-/// What a column amounts to once the stream has ended.
+/// What a column amounts to, at the end of the stream or of a frame.
 #[derive(Debug)]
 pub(crate) enum Content {
     /// Some chunk lacked the attribute: half an attribute is none.
@@ -155,6 +189,7 @@ pub(crate) enum Content {
 #[derive(Debug)]
 pub(crate) struct Column {
     pub(crate) field: Field,
+    target: PathBuf,
     spool: Spool,
     /// A value (of every component) that needs no spooling while nothing else came.
     usual: Option<f32>,
@@ -168,6 +203,7 @@ impl Column {
     pub(crate) fn new(field: Field, target: &Path) -> Self {
         Self {
             field,
+            target: target.into(),
             spool: Spool::beside(target),
             usual: None,
             held_back: 0,
@@ -181,6 +217,23 @@ impl Column {
         self
     }
 
+    /// Keeps the CRC-32 of the entries, for the first array that the column ends in.
+    pub(crate) fn with_checksum(mut self) -> Self {
+        self.spool = self.spool.with_checksum();
+        self
+    }
+
+    /// Whether all strands so far and those of `strands`, which has some, have it.
+    pub(crate) fn is_in(&self, strands: &StrandBuffer) -> bool {
+        let has = self.field == Field::Counts || !self.field.bytes(strands).is_empty();
+        has && !self.absent
+    }
+
+    /// Lets the array, which has no entry yet, grow in `target` from `start` on.
+    pub(crate) fn place(&mut self, target: &Arc<File>, start: u64) {
+        self.spool.place(target, start);
+    }
+
     /// Adds the field's entries of `strands`, none of which is without vertices.
     pub(crate) fn take(
         &mut self,
@@ -191,15 +244,15 @@ impl Column {
         if strands.is_empty() || self.absent {
             return Ok(());
         }
-        if self.field == Field::Counts {
-            return self.take_counts(strands, ends);
-        }
-        let bytes = self.field.bytes(strands);
-        if bytes.is_empty() {
+        if !self.is_in(strands) {
             self.absent = true;
-            self.spool = Spool::beside(Path::new("."));
+            self.spool = Spool::beside(&self.target);
             return Ok(());
         }
+        if self.field == Field::Counts {
+            return self.take_counts(strands, ends, scratch);
+        }
+        let bytes = self.field.bytes(strands);
         let stride = self.field.stride();
         let bytes = if self.field.is_per_vertex() {
             ends.apply(bytes, stride, strands, scratch)
@@ -209,12 +262,18 @@ impl Column {
         self.put(bytes)
     }
 
-    fn take_counts(&mut self, strands: &StrandBuffer, ends: Ends) -> io::Result<()> {
+    fn take_counts(
+        &mut self,
+        strands: &StrandBuffer,
+        ends: Ends,
+        scratch: &mut Vec<u8>,
+    ) -> io::Result<()> {
+        scratch.clear();
         for pair in strands.offsets.windows(2) {
             let count = ends.count((pair[1] - pair[0]) as usize) as u32;
-            self.spool.put(&count.to_le_bytes())?;
+            scratch.extend_from_slice(&count.to_le_bytes());
         }
-        Ok(())
+        self.spool.put(scratch)
     }
 
     fn put(&mut self, bytes: &[u8]) -> io::Result<()> {
@@ -232,12 +291,13 @@ impl Column {
         self.spool.put(bytes)
     }
 
-    /// Ends the column.
-    pub(crate) fn finish(self) -> Content {
+    /// Ends an array; the next entries begin another.
+    pub(crate) fn finish(&mut self) -> Content {
+        let spool = std::mem::replace(&mut self.spool, Spool::beside(&self.target));
         match self.usual {
             _ if self.absent => Content::Absent,
-            Some(usual) if self.spool.bytes() == 0 => Content::Usual(usual),
-            _ => Content::Values(self.spool),
+            Some(usual) if spool.bytes() == 0 => Content::Usual(usual),
+            _ => Content::Values(spool),
         }
     }
 }
@@ -276,11 +336,7 @@ mod tests {
             panic!("no values")
         };
         let mut bytes = Vec::new();
-        spool
-            .into_reader()
-            .unwrap()
-            .read_to_end(&mut bytes)
-            .unwrap();
+        spool.into_reader().read_to_end(&mut bytes).unwrap();
         bytemuck::pod_collect_to_vec(&bytes)
     }
 

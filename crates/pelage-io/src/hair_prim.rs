@@ -36,6 +36,7 @@ pub(crate) struct Attribute {
 /// What `field` is called; `None` for fields that USD files leave out.
 pub(crate) fn attribute(field: Field) -> Option<Attribute> {
     let (name, kind, interpolation) = match field {
+        Field::Points => ("points", "point3f[]", None),
         Field::Counts => ("curveVertexCounts", "int[]", None),
         Field::Widths => ("widths", "float[]", Some("vertex")),
         Field::Normals => ("normals", "normal3f[]", Some("vertex")),
@@ -56,11 +57,8 @@ pub(crate) fn attribute(field: Field) -> Option<Attribute> {
     })
 }
 
-/// A recorder of `info` with the fields of a USD file at `path`.
-///
-/// Normals are taken only for `ribbons`: where a file has them, readers draw flat
-/// ribbons instead of tubes.
-pub(crate) fn recorder(info: &StreamInfo, path: &Path, ribbons: bool) -> io::Result<Recorder> {
+/// A recorder of `info` into `columns`, which become attributes.
+pub(crate) fn recorder(info: &StreamInfo, columns: Vec<Column>) -> io::Result<Recorder> {
     if !is_identifier(&info.name) {
         return Err(refused(format!(
             "{:?} cannot name a prim: letters, digits and _ are allowed, \
@@ -68,23 +66,34 @@ pub(crate) fn recorder(info: &StreamInfo, path: &Path, ribbons: bool) -> io::Res
             info.name
         )));
     }
+    Ok(Recorder::new(info, Ends::Doubled, columns)?.with_extents())
+}
+
+/// The fields of a USD file at `path`, but for the points.
+///
+/// Normals are taken only for `ribbons`: where a file has them, readers draw flat
+/// ribbons instead of tubes.
+pub(crate) fn columns(path: &Path, ribbons: bool) -> Vec<Column> {
     let column = |field| Column::new(field, path);
-    let mut columns = vec![
+    let mut columns = Vec::new();
+    if ribbons {
+        columns.push(column(Field::Normals));
+    }
+    columns.extend([
         column(Field::Counts),
         column(Field::Widths),
         column(Field::Colors),
-        column(Field::Opacities).usually(1.0),
         column(Field::RootUv),
         column(Field::HairId),
         column(Field::StrandId),
-        column(Field::StrandUv).usually(0.0),
         column(Field::Group),
         column(Field::RootRest),
-    ];
-    if ribbons {
-        columns.insert(1, column(Field::Normals));
-    }
-    Ok(Recorder::new(info, Ends::Doubled, columns)?.with_extents())
+        // These two are last because they often come to nothing: no array behind
+        // them has then to move up.
+        column(Field::Opacities).usually(1.0),
+        column(Field::StrandUv).usually(0.0),
+    ]);
+    columns
 }
 
 fn is_identifier(name: &str) -> bool {

@@ -28,6 +28,7 @@ mod layout;
 mod npz;
 mod obj;
 mod ply;
+mod positional;
 mod read;
 mod recorder;
 mod rib;

@@ -153,7 +153,7 @@ pub fn read_curves(path: &Path, time: Option<f64>) -> Result<CurveFile, ReadErro
         FileKind::Usd => usd::read_usd_curves(path, time),
         FileKind::Obj => read_obj_curves(path),
         FileKind::Hair => read_hair(path),
-        FileKind::Npz => read_npz_curves(path),
+        FileKind::Npz => read_npz_curves(path, time),
         kind => Err(without(path, kind, "curves", FileKind::has_curves)),
     }
 }

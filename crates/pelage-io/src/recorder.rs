@@ -1,18 +1,17 @@
-//! What every array format does with a stream: check it, count it, and keep all but
-//! its positions in columns.
+//! What every array format does with a stream: check it, count it, and gather it in
+//! columns.
 
-use crate::columns::{Column, Ends, Field};
+use crate::columns::{Column, Ends};
 use crate::drawable::{drawable, refused};
-use pelage_strands::{Bounds, StrandBuffer, StreamInfo};
+use pelage_strands::{Amount, Bounds, StrandBuffer, StreamInfo};
+use std::borrow::Cow;
 use std::io;
 
 /// Counts of one frame; equal for every frame of a stream.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Tally {
-    /// Curves.
-    pub(crate) curves: u64,
-    /// Vertices as written, doubled ends included.
-    pub(crate) vertices: u64,
+    /// Curves and vertices as written, doubled ends included.
+    pub(crate) amount: Amount,
     /// Hash of the vertex counts in order, so that two frames whose totals agree
     /// by chance do not pass for equal.
     digest: u64,
@@ -20,8 +19,8 @@ pub(crate) struct Tally {
 
 impl Tally {
     fn add(&mut self, vertices: usize) {
-        self.curves += 1;
-        self.vertices += vertices as u64;
+        self.amount.strands += 1;
+        self.amount.vertices += vertices as u64;
         // FNV-1a over whole counts.
         self.digest = (self.digest ^ vertices as u64).wrapping_mul(0x0000_0100_0000_01b3);
     }
@@ -88,32 +87,77 @@ impl Recorder {
         Ok(())
     }
 
-    /// Records `strands` and hands the bytes of their positions (three floats a
-    /// vertex written) to `points`.
-    pub(crate) fn take(
+    /// Records `strands`; gives them as they are to be written.
+    ///
+    /// The first strands of each frame tell which columns have values in it. These
+    /// are handed to `place`, to get their places in a file, with what the frame
+    /// brings at the most, as written; `None` where that is not known.
+    pub(crate) fn take<'a>(
         &mut self,
-        strands: &StrandBuffer,
-        points: impl FnOnce(&[u8]) -> io::Result<()>,
-    ) -> io::Result<()> {
-        let strands = &*drawable(strands)?;
+        strands: &'a StrandBuffer,
+        place: impl FnOnce(&mut [&mut Column], Option<Amount>),
+    ) -> io::Result<Cow<'a, StrandBuffer>> {
+        let strands = drawable(strands)?;
+        let is_start = self.count(&strands)?;
+        if strands.is_empty() {
+            return Ok(strands);
+        }
+        if let (true, Some(extent)) = (self.wants_extents, self.extents.last_mut()) {
+            extent.join(&Bounds::of(&strands));
+        }
+        if is_start {
+            let most = self.at_most();
+            let columns = self.columns_of_frame();
+            let mut present: Vec<_> = columns.filter(|c| c.is_in(&strands)).collect();
+            place(&mut present, most);
+        }
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let ends = self.ends;
+        for column in self.columns_of_frame() {
+            column.take(&strands, ends, &mut scratch)?;
+        }
+        self.scratch = scratch;
+        Ok(strands)
+    }
+
+    /// Counts `strands`; whether they are the first of their frame. They must not
+    /// be more than can come: they would run into the place of another array.
+    fn count(&mut self, strands: &StrandBuffer) -> io::Result<bool> {
+        let most = self.at_most();
         let Some(now) = &mut self.now else {
             return Err(refused("strands came outside a frame"));
         };
+        let is_start = now.amount == Amount::default();
         for strand in 0..strands.len() {
             now.add(self.ends.count(strands.vertex_count(strand)));
         }
-        if let (true, Some(extent)) = (self.wants_extents, self.extents.last_mut()) {
-            extent.join(&Bounds::of(strands));
+        let (now, most) = (*now, most.unwrap_or(now.amount));
+        if now.amount.strands <= most.strands && now.amount.vertices <= most.vertices {
+            return Ok(is_start);
         }
-        let positions = bytemuck::cast_slice(&strands.points);
-        points(self.ends.apply(positions, 12, strands, &mut self.scratch))?;
-        let first_frame = self.frames == 1;
-        for column in &mut self.columns {
-            if first_frame || column.field == Field::Normals {
-                column.take(strands, self.ends, &mut self.scratch)?;
-            }
+        Err(match self.first {
+            Some(first) => self.changed(now, first),
+            None => refused(format!(
+                "{} strands of {} vertices came; {} of {} at the most were announced",
+                now.amount.strands, now.amount.vertices, most.strands, most.vertices
+            )),
+        })
+    }
+
+    /// What the frame brings at the most, as written: what the first one brought, or
+    /// what was announced of it.
+    fn at_most(&self) -> Option<Amount> {
+        match self.first {
+            Some(first) => Some(first.amount),
+            None => self.info.at_most.map(|most| self.ends.amount(most)),
         }
-        Ok(())
+    }
+
+    /// The columns that the frame fills: all in the first, then those that move.
+    pub(crate) fn columns_of_frame(&mut self) -> impl Iterator<Item = &mut Column> {
+        let is_first = self.frames == 1;
+        let columns = self.columns.iter_mut();
+        columns.filter(move |column| is_first || column.field.moves())
     }
 
     /// Closes the frame: its counts, which must be those of the first frame.
@@ -123,13 +167,21 @@ impl Recorder {
         };
         let first = *self.first.get_or_insert(now);
         if now != first {
-            return Err(refused(format!(
-                "frame {} has {} curves of {} vertices, the first frame {} of {}: \
-                 counts must not change between frames",
-                self.frames, now.curves, now.vertices, first.curves, first.vertices
-            )));
+            return Err(self.changed(now, first));
         }
         Ok(now)
+    }
+
+    fn changed(&self, now: Tally, first: Tally) -> io::Error {
+        refused(format!(
+            "frame {} has {} curves of {} vertices, the first frame {} of {}: \
+             counts must not change between frames",
+            self.frames,
+            now.amount.strands,
+            now.amount.vertices,
+            first.amount.strands,
+            first.amount.vertices
+        ))
     }
 
     fn expected_frames(&self) -> usize {
@@ -191,10 +243,10 @@ mod tests {
     fn frames_must_bring_the_same_vertex_counts_in_the_same_order() {
         let mut recorder = recorder(&[1.0, 2.0]).unwrap();
         recorder.begin_frame().unwrap();
-        recorder.take(&strands(&[0, 2, 5]), |_| Ok(())).unwrap();
-        assert_eq!(recorder.end_frame().unwrap().vertices, 9);
+        recorder.take(&strands(&[0, 2, 5]), |_, _| ()).unwrap();
+        assert_eq!(recorder.end_frame().unwrap().amount.vertices, 9);
         recorder.begin_frame().unwrap();
-        recorder.take(&strands(&[0, 3, 5]), |_| Ok(())).unwrap();
+        recorder.take(&strands(&[0, 3, 5]), |_, _| ()).unwrap();
         let error = recorder.end_frame().unwrap_err().to_string();
         assert!(error.contains("must not change"), "{error}");
     }
@@ -217,7 +269,7 @@ mod tests {
     #[test]
     fn strands_outside_a_frame_are_refused() {
         let mut recorder = recorder(&[]).unwrap();
-        assert!(recorder.take(&strands(&[0, 2]), |_| Ok(())).is_err());
+        assert!(recorder.take(&strands(&[0, 2]), |_, _| ()).is_err());
         assert!(recorder.end_frame().is_err());
     }
 }

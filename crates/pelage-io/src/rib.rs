@@ -10,7 +10,7 @@
 
 use crate::atomic::Closed;
 use crate::columns::Ends;
-use crate::drawable::{drawable, refused};
+use crate::drawable::refused;
 use crate::file_sink::{Stream, file_sink};
 use crate::recorder::Recorder;
 use crate::text_numbers::{push_f32, push_int};
@@ -80,8 +80,7 @@ impl Stream for Rib {
     }
 
     fn write(&mut self, strands: &StrandBuffer) -> io::Result<()> {
-        let strands = &*drawable(strands)?;
-        self.recorder.take(strands, |_| Ok(()))?;
+        let strands = &*self.recorder.take(strands, |_, _| ())?;
         let mut start = 0;
         while start < strands.len() {
             let end = strands.len().min(start + BLOCK_HAIRS - self.block.len());

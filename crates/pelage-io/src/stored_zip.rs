@@ -1,16 +1,19 @@
-//! A ZIP archive of stored (uncompressed) entries whose start is written last.
+//! A ZIP archive of stored (uncompressed) entries whose contents may be in place
+//! before their headers.
 //!
-//! Why not the `zip` crate: entries stream in before their size, checksum or even
-//! their first bytes are known. Every local header has room for 64-bit sizes, as
-//! NumPy's own have; the central directory uses 64-bit records only where needed.
-//! Dates are those of the format's epoch, so archives do not depend on the clock.
+//! Why not the `zip` crate: contents grow in spools, many of them side by side in the
+//! archive itself. Every local header has room for 64-bit sizes, as NumPy's own have;
+//! the central directory uses 64-bit records only where needed. Dates are those of the
+//! format's epoch, so archives do not depend on the clock.
 //!
 //! Source: PKWARE APPNOTE 6.3.10, sections 4.3 and 4.5.3.
 
 use crate::AtomicFile;
-use crate::spool::pour;
+use crate::spool::Spool;
 use crc32fast::Hasher;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::fs::File;
+use std::io::{self, Write};
+use std::sync::Arc;
 
 /// 1980-01-01, 00:00: the epoch of the format's dates, as date and time.
 const EPOCH: [u8; 4] = [0, 0, 0x21, 0];
@@ -27,116 +30,91 @@ struct Entry {
     crc: u32,
 }
 
-/// The entry being written.
-#[derive(Debug)]
-struct Open {
-    entry: Entry,
-    /// Where its contents start.
-    start: u64,
-    /// Bytes at the start that [`StoredZip::end`] fills in.
-    reserved: usize,
-    /// Checksum of what follows them.
-    hasher: Hasher,
-}
-
 /// See the module.
 #[derive(Debug)]
 pub(crate) struct StoredZip {
     out: AtomicFile,
+    /// The same file, for spools.
+    handle: Arc<File>,
     at: u64,
-    open: Option<Open>,
     entries: Vec<Entry>,
 }
 
 impl StoredZip {
-    pub(crate) fn new(out: AtomicFile) -> Self {
-        Self {
+    pub(crate) fn new(out: AtomicFile) -> io::Result<Self> {
+        Ok(Self {
+            handle: out.handle()?,
             out,
             at: 0,
-            open: None,
             entries: Vec::new(),
-        }
+        })
     }
 
-    /// Starts an entry and leaves `reserved` bytes at its start for later.
-    pub(crate) fn begin(&mut self, name: &str, reserved: usize) -> io::Result<()> {
-        let entry = Entry {
-            name: name.into(),
-            offset: self.at,
-            size: 0,
-            crc: 0,
-        };
-        self.raw(&local_header(&entry))?;
-        self.open = Some(Open {
-            entry,
-            start: self.at,
-            reserved,
-            hasher: Hasher::new(),
-        });
-        self.raw(&vec![0; reserved])
+    /// The archive's file, for spools to grow in.
+    pub(crate) fn handle(&self) -> &Arc<File> {
+        &self.handle
     }
 
-    fn raw(&mut self, bytes: &[u8]) -> io::Result<()> {
+    /// Where the next entry starts.
+    pub(crate) fn end(&self) -> u64 {
+        self.at
+    }
+
+    /// Bytes before the contents of an entry called `name`.
+    pub(crate) fn head_bytes(name: &str) -> u64 {
+        LOCAL_HEADER_BYTES + name.len() as u64
+    }
+
+    fn put(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.out.write_all(bytes)?;
         self.at += bytes.len() as u64;
         Ok(())
     }
 
-    /// Adds bytes to the entry.
-    pub(crate) fn put(&mut self, bytes: &[u8]) -> io::Result<()> {
-        if let Some(open) = &mut self.open {
-            open.hasher.update(bytes);
-        }
-        self.raw(bytes)
-    }
-
-    /// Adds the next `bytes` bytes of `from` to the entry.
-    pub(crate) fn put_from(&mut self, from: &mut impl Read, bytes: u64) -> io::Result<()> {
-        pour(from, bytes, &mut EntryBytes(self))
-    }
-
-    /// Ends the entry, and fills in its `start`, of the length that was reserved.
-    pub(crate) fn end(&mut self, start: &[u8]) -> io::Result<()> {
-        let Some(open) = self.open.take() else {
-            return Ok(());
-        };
-        debug_assert_eq!(start.len(), open.reserved);
+    /// Adds an entry of `start`, then all of `rest`, which has a checksum. Spools
+    /// with a place come in the order of their places.
+    pub(crate) fn add(&mut self, name: &str, start: &[u8], rest: Spool) -> io::Result<()> {
         let mut hasher = Hasher::new();
         hasher.update(start);
-        hasher.combine(&open.hasher);
-        let entry = Entry {
-            size: self.at - open.start,
-            crc: hasher.finalize(),
-            ..open.entry
-        };
-        self.out.seek(SeekFrom::Start(entry.offset))?;
-        self.out.write_all(&local_header(&entry))?;
-        self.out.write_all(start)?;
-        self.out.seek(SeekFrom::Start(self.at))?;
-        self.entries.push(entry);
+        if let Some(checksum) = rest.checksum() {
+            hasher.combine(checksum);
+        }
+        let bytes = rest.bytes();
+        self.begin(name, start, bytes, hasher)?;
+        rest.settle(&mut self.out, self.at)?;
+        self.at += bytes;
         Ok(())
+    }
+
+    /// Adds an entry of `bytes`.
+    pub(crate) fn add_bytes(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        let mut hasher = Hasher::new();
+        hasher.update(bytes);
+        self.begin(name, bytes, 0, hasher)
+    }
+
+    /// Starts an entry of `start` and `more` bytes that will follow; `hasher` has
+    /// the checksum of them all.
+    fn begin(&mut self, name: &str, start: &[u8], more: u64, hasher: Hasher) -> io::Result<()> {
+        let entry = Entry {
+            name: name.into(),
+            offset: self.at,
+            size: start.len() as u64 + more,
+            crc: hasher.finalize(),
+        };
+        self.put(&local_header(&entry))?;
+        self.entries.push(entry);
+        self.put(start)
     }
 
     /// Writes the directory and hands the file back.
     pub(crate) fn finish(mut self) -> io::Result<AtomicFile> {
         let directory: Vec<u8> = self.entries.iter().flat_map(directory_record).collect();
         let end = end_records(self.entries.len() as u64, directory.len() as u64, self.at);
-        self.raw(&directory)?;
-        self.raw(&end)?;
+        self.put(&directory)?;
+        self.put(&end)?;
+        self.out.end_at(self.at)?;
         Ok(self.out)
-    }
-}
-
-struct EntryBytes<'a>(&'a mut StoredZip);
-
-impl Write for EntryBytes<'_> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.put(bytes)?;
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }
 
@@ -147,6 +125,9 @@ fn common_fields(entry: &Entry) -> Vec<u8> {
     out.extend(entry.crc.to_le_bytes());
     out
 }
+
+/// Bytes of a local header but for the name.
+const LOCAL_HEADER_BYTES: u64 = 50;
 
 fn local_header(entry: &Entry) -> Vec<u8> {
     let mut out = b"PK\x03\x04".to_vec();
@@ -235,6 +216,18 @@ fn end_records(entries: u64, size: u64, offset: u64) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_local_header_is_as_long_as_was_reserved() {
+        let entry = Entry {
+            name: "points.npy".into(),
+            offset: 5,
+            size: 7,
+            crc: 0,
+        };
+        let bytes = local_header(&entry).len() as u64;
+        assert_eq!(bytes, StoredZip::head_bytes(&entry.name));
+    }
 
     #[test]
     fn only_what_passes_4_gb_is_written_in_64_bits() {

@@ -5,7 +5,7 @@
 //! shortest decimals that read back the same.
 
 use crate::AtomicFile;
-use crate::columns::{Content, Field, Scalar};
+use crate::columns::{Content, Ends, Field, Scalar};
 use crate::file_sink::{Stream, file_sink};
 use crate::hair_prim::{self, Attribute, attribute};
 use crate::recorder::{Recorded, Recorder};
@@ -30,11 +30,12 @@ struct Usda {
     frames: Vec<f64>,
     frame: usize,
     points: TextArray,
+    scratch: Vec<u8>,
 }
 
 impl Stream for Usda {
     fn begin(path: &Path, options: &WriteOptions, info: &StreamInfo) -> io::Result<Self> {
-        let recorder = hair_prim::recorder(info, path, options.ribbons)?;
+        let recorder = hair_prim::recorder(info, hair_prim::columns(path, options.ribbons))?;
         let mut file = AtomicFile::create(path)?;
         file.write_all(&head(options, info))?;
         Ok(Self {
@@ -43,6 +44,7 @@ impl Stream for Usda {
             frames: info.frames.clone(),
             frame: 0,
             points: TextArray::new(Scalar::F32, 3),
+            scratch: Vec::new(),
         })
     }
 
@@ -54,8 +56,10 @@ impl Stream for Usda {
     }
 
     fn write(&mut self, strands: &StrandBuffer) -> io::Result<()> {
-        let (file, points) = (&mut self.file, &mut self.points);
-        self.recorder.take(strands, |bytes| points.put(bytes, file))
+        let strands = self.recorder.take(strands, |_, _| ())?;
+        let points = bytemuck::cast_slice(&strands.points);
+        let points = Ends::Doubled.apply(points, 12, &strands, &mut self.scratch);
+        self.points.put(points, &mut self.file)
     }
 
     fn end_frame(&mut self) -> io::Result<()> {
@@ -76,13 +80,9 @@ impl Stream for Usda {
             extents,
         } = self.recorder.finish()?;
         write_extents(&info.frames, &extents, &mut file)?;
-        for column in columns {
+        for mut column in columns {
             let field = column.field;
-            let entries = if field.is_per_vertex() {
-                tally.vertices
-            } else {
-                tally.curves
-            };
+            let entries = field.entries(tally.amount);
             if let Some(attribute) = attribute(field) {
                 write_column(
                     field,
@@ -208,7 +208,7 @@ fn write_column(
             (interpolation, entries) = (Some("constant"), 1);
             Box::new(io::Cursor::new(value.to_le_bytes()))
         }
-        Content::Values(spool) => Box::new(spool.into_reader()?),
+        Content::Values(spool) => Box::new(spool.into_reader()),
     };
     let frames = if field == Field::Normals { frames } else { &[] };
     let declaration = format!("{} {}", attribute.kind, attribute.name);

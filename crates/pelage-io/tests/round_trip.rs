@@ -58,7 +58,7 @@ fn frames_are_read_back_each_at_its_time() {
         frames: vec![10.0, 12.5],
         ..Default::default()
     };
-    for format in ["usdc", "usda"] {
+    for format in ["usdc", "usda", "npz"] {
         let path = folder.path().join(format!("a.{format}"));
         write(&path, &WriteOptions::default(), &info, &frames, 8).unwrap();
         for (time, strands) in info.frames.iter().zip(&frames) {
@@ -66,6 +66,14 @@ fn frames_are_read_back_each_at_its_time() {
             assert_eq!(file.sets[0].frames, info.frames);
             let found = strands_through_vertices(&file.sets[0]);
             assert!(found.points == strands.points, "{format} at {time}");
+            assert!(file.sets[0].faults.is_empty(), "{format} at {time}");
         }
+        let between = read_curves(&path, Some(11.25)).unwrap();
+        let between = strands_through_vertices(&between.sets[0]);
+        // A rounding or two of heights up to 3.
+        let off = |(a, b): (&[f32; 3], &[f32; 3])| (a[1] - b[1]).abs() > 1e-6;
+        let expected = raised(&first, 1.0);
+        let mut pairs = between.points.iter().zip(&expected.points);
+        assert!(!pairs.any(off), "{format}");
     }
 }

@@ -5,10 +5,10 @@
 mod support;
 
 use pelage_io::{WriteOptions, sink_for};
-use pelage_strands::{Sink, StrandBuffer, StreamInfo};
+use pelage_strands::{Amount, Sink, StrandBuffer, StreamInfo};
 use std::fs;
 use std::path::Path;
-use support::{raised, strands, write, write_still};
+use support::{part, raised, strands, write, write_still};
 
 const FORMATS: [&str; 4] = ["usdc", "usda", "npz", "rib"];
 
@@ -46,6 +46,122 @@ fn the_same_strands_make_the_same_bytes_however_they_are_cut() {
             fs::read(path).unwrap()
         });
         assert!(bytes[0] == bytes[1] && bytes[1] == bytes[2], "{format}");
+    }
+}
+
+fn amount(strands: &StrandBuffer) -> Amount {
+    Amount {
+        strands: strands.len() as u64,
+        vertices: strands.points.len() as u64,
+    }
+}
+
+/// The bytes of a file of `frames`, of which `at_most` was announced.
+fn announced(format: &str, frames: &[StrandBuffer], at_most: Option<Amount>) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(format!("a.{format}"));
+    let options = WriteOptions {
+        ribbons: true,
+        ..Default::default()
+    };
+    let times = (0..frames.len()).map(|frame| frame as f64);
+    let info = StreamInfo {
+        frames: times.filter(|_| frames.len() > 1).collect(),
+        at_most,
+        ..Default::default()
+    };
+    write(&path, &options, &info, frames, 3000).unwrap();
+    assert_eq!(names(folder.path()).len(), 1);
+    fs::read(path).unwrap()
+}
+
+#[test]
+fn bytes_do_not_depend_on_how_much_was_announced() {
+    let plain = strands(30_000);
+    let mut varied = plain.clone();
+    varied.opacities[100_000] = 0.5;
+    varied.strand_uv[3] = [0.5, 0.5];
+    let mut curled = plain.clone();
+    curled.strand_uv[29_999] = [0.5, 0.5];
+    let mut bare = plain.clone();
+    bare.normals.clear();
+    bare.root_uv.clear();
+    let moving = vec![varied.clone(), raised(&varied, 1.0), raised(&varied, 2.0)];
+    let streams = [vec![plain], vec![varied], vec![curled], vec![bare], moving];
+    for format in ["usdc", "usda", "npz"] {
+        for frames in &streams {
+            let exact = amount(&frames[0]);
+            let loose = Amount {
+                strands: exact.strands + 1,
+                vertices: exact.vertices + 70_000,
+            };
+            let endless = Amount {
+                strands: u64::MAX,
+                vertices: 1 << 38,
+            };
+            let expected = announced(format, frames, None);
+            for at_most in [exact, loose, endless] {
+                let found = announced(format, frames, Some(at_most));
+                assert!(found == expected, "{format}: {at_most:?} of {exact:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn an_attribute_that_ends_half_way_leaves_no_trace() {
+    let whole = strands(60_000);
+    let mut half = whole.clone();
+    half.colors.clear();
+    for format in ["usdc", "npz"] {
+        let folder = tempfile::tempdir().unwrap();
+        let bytes = [None, Some(amount(&whole))].map(|at_most| {
+            let path = folder.path().join(format!("a.{format}"));
+            let mut sink = sink_for(&path, &WriteOptions::default()).unwrap();
+            let info = StreamInfo {
+                at_most,
+                ..Default::default()
+            };
+            sink.begin(&info).unwrap();
+            sink.begin_frame(0).unwrap();
+            sink.write(&part(&whole, 0, 40_000)).unwrap();
+            sink.write(&part(&half, 40_000, 60_000)).unwrap();
+            sink.end_frame().unwrap();
+            sink.finish().unwrap();
+            fs::read(path).unwrap()
+        });
+        let never = announced(format, &[half.clone()], None);
+        assert!(bytes[0] == bytes[1], "{format}");
+        // Normals: ribbons are asked for there.
+        assert!(format == "usdc" || bytes[0] == never, "{format}");
+    }
+}
+
+#[test]
+fn more_than_was_announced_is_refused_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let strands = strands(100);
+    let exact = amount(&strands);
+    let fewer_strands = Amount {
+        strands: 99,
+        ..exact
+    };
+    let fewer_vertices = Amount {
+        vertices: exact.vertices - 1,
+        ..exact
+    };
+    for format in ["usdc", "usda", "npz"] {
+        for at_most in [fewer_strands, fewer_vertices] {
+            let path = folder.path().join(format!("a.{format}"));
+            let info = StreamInfo {
+                at_most: Some(at_most),
+                ..Default::default()
+            };
+            let frames = std::slice::from_ref(&strands);
+            let error = write(&path, &WriteOptions::default(), &info, frames, 7).unwrap_err();
+            assert!(error.to_string().contains("were announced"), "{error}");
+            assert!(names(folder.path()).is_empty(), "{format}");
+        }
     }
 }
 
@@ -193,9 +309,14 @@ fn writes_until_the_disk_is_full() {
     };
     let path = Path::new(&path);
     let frames = [strands(50_000)];
-    let info = StreamInfo::default();
-    let error = write(path, &WriteOptions::default(), &info, &frames, 100).unwrap_err();
-    assert!(error.to_string().contains("too large"), "{error}");
+    for at_most in [None, Some(amount(&frames[0]))] {
+        let info = StreamInfo {
+            at_most,
+            ..Default::default()
+        };
+        let error = write(path, &WriteOptions::default(), &info, &frames, 100).unwrap_err();
+        assert!(error.to_string().contains("too large"), "{error}");
+    }
 }
 
 #[test]

@@ -17,6 +17,6 @@ mod validate;
 
 pub use bounds::{Bounds, BoundsSink};
 pub use buffer::{StrandBuffer, StrandMeta};
-pub use sink::{Collect, Null, Sink, SinkError, StreamInfo, Tee, UpAxis};
+pub use sink::{Amount, Collect, Null, Sink, SinkError, StreamInfo, Tee, UpAxis};
 pub use statistics::{Range, Statistics};
 pub use validate::{Fault, FaultKind, validate};

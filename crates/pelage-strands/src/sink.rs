@@ -13,6 +13,15 @@ pub enum UpAxis {
     Z,
 }
 
+/// How much hair there is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Amount {
+    /// Strands.
+    pub strands: u64,
+    /// Vertices of all of them.
+    pub vertices: u64,
+}
+
 /// What a sink should know of the stream before its first strand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StreamInfo {
@@ -26,6 +35,11 @@ pub struct StreamInfo {
     pub frames_per_second: f64,
     /// The frames that will follow, in order; empty for a still.
     pub frames: Vec<f64>,
+    /// What each frame brings at the most, where that is known. Files are laid out
+    /// by it: where exactly this much comes, every array is written in its place;
+    /// where less comes, arrays are moved in the end. More is an error. A strand of
+    /// one vertex counts as one of two.
+    pub at_most: Option<Amount>,
 }
 
 impl Default for StreamInfo {
@@ -36,6 +50,7 @@ impl Default for StreamInfo {
             meters_per_unit: 0.01,
             frames_per_second: 24.0,
             frames: Vec::new(),
+            at_most: None,
         }
     }
 }

@@ -8,7 +8,7 @@ mod fixture;
 use fixture::{Fixture, collect, moved, strands};
 use pelage_curves::{Vec3, catmull_rom};
 use pelage_groom::{Capture, Clock, Plan, Request, Scratch, generate};
-use pelage_strands::{BoundsSink, Sink, SinkError, StrandBuffer, StreamInfo, validate};
+use pelage_strands::{Amount, BoundsSink, Sink, SinkError, StrandBuffer, StreamInfo, validate};
 
 fn plan() -> Plan {
     Fixture::default().plan()
@@ -282,6 +282,37 @@ fn a_failing_sink_ends_the_run_with_its_words() {
             "cannot write the disk: it is full"
         );
     }
+}
+
+#[test]
+fn what_a_run_announces_is_what_comes_where_no_hair_is_left_out() {
+    #[derive(Default)]
+    struct Announced(Option<Amount>);
+    impl Sink for Announced {
+        fn begin(&mut self, info: &StreamInfo) -> Result<(), SinkError> {
+            self.0 = info.at_most;
+            Ok(())
+        }
+        fn write(&mut self, _: &StrandBuffer) -> Result<(), SinkError> {
+            Ok(())
+        }
+    }
+    let mut sink = Announced::default();
+    let request = Request {
+        hairs: 100..1500,
+        threads: 1,
+        info: StreamInfo::default(),
+    };
+    let report = generate(&plan(), &request, &mut |_| Ok(None), &mut sink, &mut |_| {
+        true
+    })
+    .unwrap();
+    assert_eq!(report.dropped.total(), 0);
+    let came = Amount {
+        strands: report.strands,
+        vertices: report.vertices,
+    };
+    assert_eq!(sink.0, Some(came));
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! NumPy archives: strands as named arrays.
 
+mod frames;
 mod read;
 mod write;
 

@@ -4,8 +4,10 @@
 //! `colors` (n × 3), `opacities`, `normals` (n × 3) have one entry a vertex;
 //! `hair_id`, `strand_id`, `root_uv` (m × 2), `strand_uv` (m × 2), `group`,
 //! `triangle`, `barycentric` (m × 3), `root_rest` (m × 3) one entry a curve. Real
-//! numbers are of 32 or 64 bits, integers too, signed or not.
+//! numbers are of 32 or 64 bits, integers too, signed or not. `points` and `normals`
+//! may have a leading axis of frames, whose times are in `frames`.
 
+use super::frames;
 use crate::layout::Layout;
 use crate::source::read_bytes;
 use crate::{AttributeInfo, CurveFile, CurveSet, ReadError};
@@ -27,34 +29,41 @@ fn budget(size: usize) -> u64 {
 const MAX_HEADER: usize = 1024;
 
 /// One array of the archive.
-struct Array {
-    kind: String,
-    shape: Vec<u64>,
-    numbers: Numbers,
+pub(super) struct Array {
+    pub(super) kind: String,
+    pub(super) shape: Vec<u64>,
+    pub(super) numbers: Numbers,
 }
 
-enum Numbers {
+pub(super) enum Numbers {
     Real(Vec<f32>),
+    Double(Vec<f64>),
     Integer(Vec<i64>),
     /// Of a type that no attribute has.
     Other,
 }
 
-/// Reads the curves of the archive `path`: one set of Catmull-Rom curves through
-/// their vertices, named after the file.
+/// Reads the curves of the archive `path` at `time`: one set of Catmull-Rom curves
+/// through their vertices, named after the file.
+///
+/// Without a time the first frame counts. Between frames points and normals are
+/// interpolated, before the first and after the last they hold.
 ///
 /// Fails where `points` or `counts` are missing or not of the form above. Other
 /// arrays that do not fit are left out and listed in
 /// [`CurveSet::faults`](crate::CurveSet::faults).
-pub fn read_npz_curves(path: &Path) -> Result<CurveFile, ReadError> {
+pub fn read_npz_curves(path: &Path, time: Option<f64>) -> Result<CurveFile, ReadError> {
     let bytes = read_bytes(path)?;
     // The archive reader is old and indexes what it reads; sizes are checked here.
     let arrays = catch_unwind(|| read_arrays(path, &bytes)).unwrap_or_else(|_| {
         let message = "it is no sound zip archive";
         Err(ReadError::file(path, message))
     })?;
+    let mut arrays = arrays;
+    let frames = frames::cut_to(&mut arrays, time).map_err(|m| ReadError::file(path, m))?;
     let name = path.file_stem().map(|n| n.to_string_lossy().into_owned());
-    let set = assemble(path, name.unwrap_or_default(), arrays)?;
+    let mut set = assemble(path, name.unwrap_or_default(), arrays)?;
+    set.frames = frames;
     Ok(CurveFile {
         sets: vec![set],
         up_axis: None,
@@ -144,10 +153,7 @@ fn numbers(file: NpyFile<&[u8]>) -> std::io::Result<Numbers> {
         Err(file) => file,
     };
     let file = match file.try_data::<f64>() {
-        Ok(data) => {
-            let narrow = data.map(|x| x.map(|x| x as f32));
-            return Ok(Numbers::Real(narrow.collect::<Result<_, _>>()?));
-        }
+        Ok(data) => return Ok(Numbers::Double(data.collect::<Result<_, _>>()?)),
         Err(file) => file,
     };
     macro_rules! integers { ($file:ident, $($type:ty),*) => { $(
@@ -279,6 +285,10 @@ impl Assembly {
         };
         match array.numbers {
             Numbers::Real(numbers) if fits => Ok(numbers.as_chunks::<N>().0.to_vec()),
+            Numbers::Double(numbers) if fits => {
+                let narrow: Vec<f32> = numbers.into_iter().map(|x| x as f32).collect();
+                Ok(narrow.as_chunks::<N>().0.to_vec())
+            }
             _ => Err(format!(
                 "{name} is {} of shape {:?}, not real numbers of shape [n, {N}]",
                 array.kind, array.shape

@@ -25,9 +25,10 @@ use crate::AtomicFile;
 use crate::columns::{Column, Content, Ends, Field, Scalar};
 use crate::file_sink::{Stream, file_sink};
 use crate::recorder::{Recorded, Recorder};
+use crate::spool::reach;
 use crate::stored_zip::StoredZip;
 use crate::write::WriteOptions;
-use pelage_strands::{StrandBuffer, StreamInfo};
+use pelage_strands::{Amount, StrandBuffer, StreamInfo};
 use std::io;
 use std::path::Path;
 
@@ -40,7 +41,8 @@ file_sink! {
     NpzWriter, Npz
 }
 
-const FIELDS: [(&str, Field); 13] = [
+const FIELDS: [(&str, Field); 14] = [
+    ("points", Field::Points),
     ("counts", Field::Counts),
     ("widths", Field::Widths),
     ("colors", Field::Colors),
@@ -56,20 +58,36 @@ const FIELDS: [(&str, Field); 13] = [
     ("root_rest", Field::RootRest),
 ];
 
+/// Name of a field's array.
+fn name(field: Field) -> &'static str {
+    let named = FIELDS.iter().find(|named| named.1 == field);
+    named.map_or("", |named| named.0)
+}
+
+/// Name of the archive's entry for an array.
+fn entry(array: &str) -> String {
+    format!("{array}.npy")
+}
+
 #[derive(Debug)]
 struct Npz {
-    /// Its open entry is `points`, until the stream ends.
     zip: StoredZip,
     recorder: Recorder,
+    /// Frames that will come, at least one.
+    frames: u64,
+    is_laid_out: bool,
 }
 
 impl Stream for Npz {
     fn begin(path: &Path, _options: &WriteOptions, info: &StreamInfo) -> io::Result<Self> {
-        let columns = FIELDS.map(|(_, field)| Column::new(field, path)).into();
-        let recorder = Recorder::new(info, Ends::Real, columns)?;
-        let mut zip = StoredZip::new(AtomicFile::create(path)?);
-        zip.begin("points.npy", NPY_HEADER_BYTES)?;
-        Ok(Self { zip, recorder })
+        let column = |(_, field)| Column::new(field, path).with_checksum();
+        let recorder = Recorder::new(info, Ends::Real, FIELDS.map(column).into())?;
+        Ok(Self {
+            zip: StoredZip::new(AtomicFile::create(path)?)?,
+            recorder,
+            frames: info.frames.len().max(1) as u64,
+            is_laid_out: false,
+        })
     }
 
     fn begin_frame(&mut self) -> io::Result<()> {
@@ -77,7 +95,15 @@ impl Stream for Npz {
     }
 
     fn write(&mut self, strands: &StrandBuffer) -> io::Result<()> {
-        self.recorder.take(strands, |bytes| self.zip.put(bytes))
+        let Self { zip, frames, .. } = self;
+        let is_laid_out = &mut self.is_laid_out;
+        self.recorder.take(strands, |columns, most| {
+            // The arrays hold all frames.
+            if !std::mem::replace(is_laid_out, true) {
+                reserve(zip, columns, most, *frames);
+            }
+        })?;
+        Ok(())
     }
 
     fn end_frame(&mut self) -> io::Result<()> {
@@ -96,34 +122,44 @@ impl Stream for Npz {
             0 => shape.to_vec(),
             frames => [&[frames], shape].concat(),
         };
-        zip.end(&npy_header("<f4", &moving(&[tally.vertices, 3])))?;
-        for ((name, field), column) in FIELDS.into_iter().zip(columns) {
+        for mut column in columns {
+            let field = column.field;
             let Content::Values(spool) = column.finish() else {
                 continue;
             };
             let (scalar, components) = field.element();
-            let mut shape = vec![if field.is_per_vertex() {
-                tally.vertices
-            } else {
-                tally.curves
-            }];
+            let mut shape = vec![field.entries(tally.amount)];
             if components > 1 {
                 shape.push(components as u64);
             }
-            if field == Field::Normals {
+            if field.moves() {
                 shape = moving(&shape);
             }
-            zip.begin(&format!("{name}.npy"), NPY_HEADER_BYTES)?;
-            let bytes = spool.bytes();
-            zip.put_from(&mut spool.into_reader()?, bytes)?;
-            zip.end(&npy_header(type_name(scalar), &shape))?;
+            let header = npy_header(type_name(scalar), &shape);
+            zip.add(&entry(name(field)), &header, spool)?;
         }
         if !info.frames.is_empty() {
-            zip.begin("frames.npy", NPY_HEADER_BYTES)?;
-            zip.put(bytemuck::cast_slice(&info.frames))?;
-            zip.end(&npy_header("<f8", &[info.frames.len() as u64]))?;
+            let mut array = npy_header("<f8", &[info.frames.len() as u64]);
+            array.extend_from_slice(bytemuck::cast_slice(&info.frames));
+            zip.add_bytes(&entry("frames"), &array)?;
         }
         zip.finish()?.commit()
+    }
+}
+
+/// Lets `columns` grow where their arrays will be if each of `frames` frames brings
+/// `most`. The first whose size is not known has the rest of the file.
+fn reserve(zip: &StoredZip, columns: &mut [&mut Column], most: Option<Amount>, frames: u64) {
+    let mut end = Some(zip.end());
+    for column in columns {
+        let Some(before) = end else {
+            return;
+        };
+        let head = StoredZip::head_bytes(&entry(name(column.field))) + NPY_HEADER_BYTES as u64;
+        let start = before + head;
+        column.place(zip.handle(), start);
+        let times = if column.field.moves() { frames } else { 1 };
+        end = most.and_then(|most| reach(start, column.field.size(most)?.checked_mul(times)?));
     }
 }
 
@@ -135,8 +171,8 @@ fn type_name(scalar: Scalar) -> &'static str {
     }
 }
 
-/// Size of every header that we write, so that one can be put in place once its
-/// shape is known. Three 64-bit sizes fit.
+/// Size of every header that we write, so that the place of an array is known before
+/// its shape. Three 64-bit sizes fit.
 const NPY_HEADER_BYTES: usize = 128;
 
 /// Header of a `.npy` file, format 1.0, of an array in row-major order.

@@ -3,9 +3,13 @@
 use super::sections::Sections;
 use super::value::{Kind, ValueRep};
 use crate::AtomicFile;
-use crate::spool::{Spool, pour};
+use crate::columns::Column;
+use crate::spool::{Spool, reach};
+use pelage_strands::Amount;
+use std::fs::File;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Bytes before the first value.
 const BOOTSTRAP_BYTES: u64 = 88;
@@ -18,6 +22,8 @@ const VERSION: [u8; 8] = [0, 8, 0, 0, 0, 0, 0, 0];
 #[derive(Debug)]
 pub(super) struct CrateFile {
     out: AtomicFile,
+    /// The same file, for columns.
+    handle: Arc<File>,
     /// Bytes written, which is the offset of the next one.
     at: u64,
 }
@@ -25,10 +31,9 @@ pub(super) struct CrateFile {
 impl CrateFile {
     /// Starts the file that will be `path`.
     pub(super) fn create(path: &Path) -> io::Result<Self> {
-        let mut file = Self {
-            out: AtomicFile::create(path)?,
-            at: 0,
-        };
+        let out = AtomicFile::create(path)?;
+        let handle = out.handle()?;
+        let mut file = Self { out, handle, at: 0 };
         file.put(b"PXR-USDC")?;
         file.put(&VERSION)?;
         file.put(&[0; BOOTSTRAP_BYTES as usize - 16])?;
@@ -54,67 +59,44 @@ impl CrateFile {
         Ok(self.at)
     }
 
-    fn patch(&mut self, offset: u64, value: u64) -> io::Result<()> {
-        self.out.seek(SeekFrom::Start(offset))?;
-        self.out.write_all(&value.to_le_bytes())?;
-        self.out.seek(SeekFrom::Start(self.at))?;
-        Ok(())
-    }
-
-    /// Starts an array whose count is not known yet; gives its offset. Its entries
-    /// follow through [`put`](Self::put).
-    pub(super) fn begin_array(&mut self) -> io::Result<u64> {
-        let offset = self.align()?;
-        self.put_u64(0)?;
-        Ok(offset)
-    }
-
-    /// Ends the array at `offset`, which has got `count` entries.
-    pub(super) fn end_array(
-        &mut self,
-        offset: u64,
-        kind: Kind,
-        count: u64,
-    ) -> io::Result<ValueRep> {
-        if count == 0 {
-            return Ok(ValueRep::array(kind, 0));
+    /// Lets `columns` grow where their arrays will be if each comes to `most`. The
+    /// first whose size is not known has the rest of the file; those behind it stay
+    /// where they are.
+    pub(super) fn reserve(&self, columns: &mut [&mut Column], most: Option<Amount>) {
+        let mut end = Some(self.at);
+        for column in columns {
+            let Some(start) = end.map(|end| end.next_multiple_of(8) + 8) else {
+                return;
+            };
+            column.place(&self.handle, start);
+            end = most.and_then(|most| reach(start, column.field.size(most)?));
         }
-        self.patch(offset, count)?;
-        Ok(ValueRep::array(kind, offset))
     }
 
     /// Writes an array of raw entries.
     pub(super) fn array(&mut self, kind: Kind, count: u64, raw: &[u8]) -> io::Result<ValueRep> {
-        self.array_from(kind, count, raw.len() as u64, &mut io::Cursor::new(raw))
+        if count == 0 {
+            return Ok(ValueRep::array(kind, 0));
+        }
+        let offset = self.align()?;
+        self.put_u64(count)?;
+        self.put(raw)?;
+        Ok(ValueRep::array(kind, offset))
     }
 
-    /// Writes an array of all entries of `spool`.
+    /// Writes an array of all entries of `spool`. Spools with a place come in the
+    /// order of their places.
     pub(super) fn array_of(
         &mut self,
         kind: Kind,
         count: u64,
         spool: Spool,
     ) -> io::Result<ValueRep> {
+        let offset = self.array(kind, count, &[])?;
         let bytes = spool.bytes();
-        self.array_from(kind, count, bytes, &mut spool.into_reader()?)
-    }
-
-    /// Writes an array of the next `bytes` bytes of `from`.
-    pub(super) fn array_from(
-        &mut self,
-        kind: Kind,
-        count: u64,
-        bytes: u64,
-        from: &mut impl io::Read,
-    ) -> io::Result<ValueRep> {
-        if count == 0 {
-            return Ok(ValueRep::array(kind, 0));
-        }
-        let offset = self.align()?;
-        self.put_u64(count)?;
-        pour(from, bytes, &mut self.out)?;
+        spool.settle(&mut self.out, self.at)?;
         self.at += bytes;
-        Ok(ValueRep::array(kind, offset))
+        Ok(offset)
     }
 
     /// Writes a number; those that an f32 holds exactly need no room.
@@ -176,7 +158,9 @@ impl CrateFile {
         let start = self.align()?;
         self.put_u64(contents.len() as u64 / 32)?;
         self.put(&contents)?;
-        self.patch(CONTENTS_AT, start)?;
+        self.out.end_at(self.at)?;
+        self.out.seek(SeekFrom::Start(CONTENTS_AT))?;
+        self.out.write_all(&start.to_le_bytes())?;
         self.out.commit()
     }
 }

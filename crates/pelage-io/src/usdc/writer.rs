@@ -6,9 +6,9 @@ use super::value::{Kind, ValueRep};
 use crate::columns::{Column, Content, Field, Scalar};
 use crate::file_sink::{Stream, file_sink};
 use crate::hair_prim::{self, attribute};
-use crate::recorder::{Recorder, Tally};
+use crate::recorder::Recorder;
 use crate::write::WriteOptions;
-use pelage_strands::{Bounds, StrandBuffer, StreamInfo};
+use pelage_strands::{Amount, Bounds, StrandBuffer, StreamInfo};
 use std::io;
 use std::path::Path;
 
@@ -28,37 +28,47 @@ struct Usdc {
     file: CrateFile,
     recorder: Recorder,
     tool: String,
-    /// Where the points of the current frame start.
-    points_at: u64,
-    /// Points of the frames that have ended.
-    points: Vec<ValueRep>,
+    /// One a column that has values, in the columns' order.
+    arrays: Vec<Arrays>,
+}
+
+/// What a column came to, in the frames that have ended.
+#[derive(Debug)]
+struct Arrays {
+    field: Field,
+    is_constant: bool,
+    /// One a frame for what moves, else one.
+    values: Vec<ValueRep>,
 }
 
 impl Stream for Usdc {
     fn begin(path: &Path, options: &WriteOptions, info: &StreamInfo) -> io::Result<Self> {
+        let mut columns = vec![Column::new(Field::Points, path)];
+        columns.extend(hair_prim::columns(path, options.ribbons));
         Ok(Self {
-            recorder: hair_prim::recorder(info, path, options.ribbons)?,
+            recorder: hair_prim::recorder(info, columns)?,
             file: CrateFile::create(path)?,
             tool: options.tool.clone(),
-            points_at: 0,
-            points: Vec::new(),
+            arrays: Vec::new(),
         })
     }
 
     fn begin_frame(&mut self) -> io::Result<()> {
-        self.recorder.begin_frame()?;
-        self.points_at = self.file.begin_array()?;
-        Ok(())
+        self.recorder.begin_frame()
     }
 
     fn write(&mut self, strands: &StrandBuffer) -> io::Result<()> {
-        self.recorder.take(strands, |bytes| self.file.put(bytes))
+        let file = &self.file;
+        self.recorder
+            .take(strands, |columns, most| file.reserve(columns, most))?;
+        Ok(())
     }
 
     fn end_frame(&mut self) -> io::Result<()> {
-        let vertices = self.recorder.end_frame()?.vertices;
-        let points = self.file.end_array(self.points_at, Kind::Vec3f, vertices)?;
-        self.points.push(points);
+        let amount = self.recorder.end_frame()?.amount;
+        for column in self.recorder.columns_of_frame() {
+            settle(column, amount, &mut self.file, &mut self.arrays)?;
+        }
         Ok(())
     }
 
@@ -70,15 +80,34 @@ impl Stream for Usdc {
             times: None,
             attributes: Vec::new(),
         };
-        layer.gather(
-            &recorded.info,
-            recorded.tally,
-            &self.points,
-            &recorded.extents,
-            recorded.columns,
-        )?;
+        layer.gather(&recorded.info, &recorded.extents, &self.arrays)?;
         layer.write(&recorded.info, &self.tool)
     }
+}
+
+/// Brings what `column` has of a frame, `amount` of entries, to its place in `file`.
+fn settle(
+    column: &mut Column,
+    amount: Amount,
+    file: &mut CrateFile,
+    arrays: &mut Vec<Arrays>,
+) -> io::Result<()> {
+    let field = column.field;
+    let kind = kind_of(field);
+    let (is_constant, value) = match column.finish() {
+        Content::Absent | Content::Usual(0.0) => return Ok(()),
+        Content::Usual(value) => (true, file.array(kind, 1, &value.to_le_bytes())?),
+        Content::Values(spool) => (false, file.array_of(kind, field.entries(amount), spool)?),
+    };
+    match arrays.iter_mut().find(|arrays| arrays.field == field) {
+        Some(arrays) => arrays.values.push(value),
+        None => arrays.push(Arrays {
+            field,
+            is_constant,
+            values: vec![value],
+        }),
+    }
+    Ok(())
 }
 
 /// An attribute whose values are in the file.
@@ -105,14 +134,12 @@ struct Layer {
 }
 
 impl Layer {
-    /// Writes the values of all attributes.
+    /// Lists all attributes, and writes the values that are not there yet.
     fn gather(
         &mut self,
         info: &StreamInfo,
-        tally: Tally,
-        points: &[ValueRep],
         extents: &[Bounds],
-        columns: Vec<Column>,
+        columns: &[Arrays],
     ) -> io::Result<()> {
         if !info.frames.is_empty() {
             self.times = Some(self.file.times(&info.frames)?);
@@ -124,8 +151,6 @@ impl Layer {
                 ..plain(name, "token", value)
             });
         }
-        let points = self.sampled(points)?;
-        self.attributes.push(plain("points", "point3f[]", points));
         let extents: Vec<ValueRep> = extents
             .iter()
             .map(|bounds| {
@@ -136,8 +161,8 @@ impl Layer {
             .collect::<io::Result<_>>()?;
         let extent = self.sampled(&extents)?;
         self.attributes.push(plain("extent", "float3[]", extent));
-        for column in columns {
-            self.gather_column(column, tally, info.frames.len())?;
+        for arrays in columns {
+            self.gather_column(arrays, info.frames.len().max(1))?;
         }
         Ok(())
     }
@@ -150,33 +175,22 @@ impl Layer {
         }
     }
 
-    fn gather_column(&mut self, column: Column, tally: Tally, frames: usize) -> io::Result<()> {
-        let field = column.field;
-        let Some(named) = attribute(field) else {
+    fn gather_column(&mut self, arrays: &Arrays, frames: usize) -> io::Result<()> {
+        let Some(named) = attribute(arrays.field) else {
             return Ok(());
         };
-        let kind = kind_of(field);
-        let entries = if field.is_per_vertex() {
-            tally.vertices
+        let value = if !arrays.field.moves() {
+            Value::Still(arrays.values[0])
+        } else if arrays.values.len() == frames {
+            self.sampled(&arrays.values)?
         } else {
-            tally.curves
+            // Half an attribute is none.
+            return Ok(());
         };
-        let mut interpolation = named.interpolation;
-        let value = match column.finish() {
-            Content::Absent | Content::Usual(0.0) => return Ok(()),
-            Content::Usual(value) => {
-                interpolation = Some("constant");
-                Value::Still(self.file.array(kind, 1, &value.to_le_bytes())?)
-            }
-            Content::Values(spool) if field == Field::Normals => {
-                let bytes = entries * field.stride() as u64;
-                let mut reader = spool.into_reader()?;
-                let samples = (0..frames.max(1))
-                    .map(|_| self.file.array_from(kind, entries, bytes, &mut reader))
-                    .collect::<io::Result<Vec<_>>>()?;
-                self.sampled(&samples)?
-            }
-            Content::Values(spool) => Value::Still(self.file.array_of(kind, entries, spool)?),
+        let interpolation = if arrays.is_constant {
+            Some("constant")
+        } else {
+            named.interpolation
         };
         self.attributes.push(Written {
             interpolation,
