@@ -44,7 +44,7 @@ impl View {
 }
 
 fn libm_sincos(degrees: f64) -> (f64, f64) {
-    degrees.to_radians().sin_cos()
+    libm::sincos(degrees.to_radians())
 }
 
 struct Picture {

@@ -236,7 +236,7 @@ mod tests {
     fn albedo(fiber: &Fiber, color: Rgb, slant: f32) -> Rgb {
         let model = Marschner::new(fiber);
         let shares = model.shares(color);
-        let eye = Vec3::new(slant.cos(), 0.0, slant.sin());
+        let eye = Vec3::new(libm::cosf(slant), 0.0, libm::sinf(slant));
         let n = 20_000;
         let sum: Rgb = (0..n)
             .map(|i| in_cone(Vec3::Z, -1.0, point(i, 1)))

@@ -50,7 +50,8 @@ impl Bounds {
             return 0.0;
         }
         (0..3)
-            .map(|k| (self.max[k] - self.min[k]).powi(2))
+            .map(|k| self.max[k] - self.min[k])
+            .map(|side| side * side)
             .sum::<f32>()
             .sqrt()
     }

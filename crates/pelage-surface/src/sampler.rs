@@ -198,7 +198,7 @@ mod tests {
             .iter()
             .zip(&expected)
             .filter(|(_, e)| **e > 0.0)
-            .map(|(c, e)| (c - e * scale).powi(2) / (e * scale))
+            .map(|(c, e)| (c - e * scale) * (c - e * scale) / (e * scale))
             .sum();
         // A stratified sequence stays far below the number of degrees of freedom.
         assert!(

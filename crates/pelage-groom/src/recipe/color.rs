@@ -7,7 +7,7 @@ use toml::de::DeValue;
 use super::entry::Rule;
 use super::limits::Limits;
 use super::map::{Blend, Channel};
-use super::number::{self, decimal, json_decimal};
+use super::number::{self, json_decimal};
 use super::property::PropertyValue;
 use super::reader::Reader;
 
@@ -72,10 +72,6 @@ impl PropertyValue for [f32; 3] {
 
     fn is_zero(&self) -> bool {
         false
-    }
-
-    fn text(&self) -> String {
-        format!("[{}]", self.map(decimal).join(", "))
     }
 
     fn json(&self) -> Value {

@@ -1,13 +1,17 @@
 //! The direction grown guides lean in: one vector, or a map of directions.
 
+use std::path::Path;
+
 use schemars::{Schema, SchemaGenerator};
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::embed::deserialize;
 use super::entry::{Entry, Leaf, Rule};
 use super::limits::Limits;
 use super::map::{Blend, MapUse};
-use super::number::{self, decimal};
+use super::number;
 use super::path::FilePath;
 use super::reader::{Reader, join};
 
@@ -97,16 +101,34 @@ impl Entry for Comb {
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-        let (text, maps) = match self {
-            Self::Vector(vector) => (format!("[{}]", vector.map(decimal).join(", ")), vec![]),
-            Self::Map(map) => (
-                format!("{{ {} }}", map.text(None, Blend::Multiply)),
-                vec![(key.to_owned(), map)],
-            ),
+        let maps = match self {
+            Self::Vector(_) => vec![],
+            Self::Map(map) => vec![(key.to_owned(), map)],
         };
         visit(Leaf {
             maps,
-            ..Leaf::plain(key, Some(text), doc)
+            ..Leaf::of(key, self, doc)
         });
     }
+
+    fn settle(&mut self, folder: &Path) {
+        if let Self::Map(map) = self {
+            map.path.settle(folder);
+        }
+    }
 }
+
+impl Serialize for Comb {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Vector(vector) => vector.serialize(serializer),
+            Self::Map(map) => {
+                let mut table = serializer.serialize_map(None)?;
+                map.write(None, Blend::Multiply, &mut table)?;
+                table.end()
+            }
+        }
+    }
+}
+
+deserialize!(Comb, Rule::ANY);

@@ -1,9 +1,13 @@
 //! What every kind of value in a recipe can do: be read, be described, be listed.
 
+use std::path::Path;
+
 use schemars::{Schema, SchemaGenerator};
+use serde::Serialize;
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::embed::inline;
 use super::limits::Limits;
 use super::map::MapUse;
 use super::reader::Reader;
@@ -71,10 +75,18 @@ pub(crate) struct Leaf<'a> {
 
 impl<'a> Leaf<'a> {
     /// A value without maps.
-    pub(crate) fn plain(key: &str, text: Option<String>, doc: &'static str) -> Self {
+    pub(crate) fn of(key: &str, value: &impl Serialize, doc: &'static str) -> Self {
+        Self {
+            text: Some(inline(value)),
+            ..Self::absent(key, doc)
+        }
+    }
+
+    /// A key that has no value.
+    pub(crate) fn absent(key: &str, doc: &'static str) -> Self {
         Self {
             key: key.to_owned(),
-            text,
+            text: None,
             maps: Vec::new(),
             zero: false,
             ramp: false,
@@ -113,6 +125,19 @@ pub(crate) trait Entry {
 
     /// Shows every key below this one.
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>));
+
+    /// Lets relative paths start at `folder`.
+    fn settle(&mut self, _folder: &Path) {}
+
+    /// Whether there is anything to write.
+    fn is_written(&self) -> bool {
+        true
+    }
+
+    /// Whether it tells the whole strand, from root to tip.
+    fn is_ramp(&self) -> bool {
+        false
+    }
 }
 
 impl<T: Entry + Default> Entry for Option<T> {
@@ -137,7 +162,15 @@ impl<T: Entry + Default> Entry for Option<T> {
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
         match self {
             Some(inner) => inner.walk(key, doc, visit),
-            None => visit(Leaf::plain(key, None, doc)),
+            None => visit(Leaf::absent(key, doc)),
         }
+    }
+
+    fn settle(&mut self, folder: &Path) {
+        self.iter_mut().for_each(|inner| inner.settle(folder));
+    }
+
+    fn is_written(&self) -> bool {
+        self.is_some()
     }
 }

@@ -34,7 +34,7 @@ pub enum ProblemKind {
 pub struct Problem {
     /// What sort of mistake it is.
     pub kind: ProblemKind,
-    /// The recipe, as it was named to the reader.
+    /// The recipe, as it was named to the reader; empty if it is no file.
     pub file: PathBuf,
     /// Line of the value or key that is wrong, from 1; 0 where it has no place.
     pub line: usize,
@@ -55,16 +55,32 @@ pub struct Problem {
     pub(crate) excerpt: Option<Excerpt>,
 }
 
+impl Problem {
+    /// The same mistake where its place means nothing to the reader.
+    pub(crate) fn without_place(self) -> Self {
+        Self {
+            file: PathBuf::new(),
+            line: 0,
+            column: 0,
+            excerpt: None,
+            ..self
+        }
+    }
+}
+
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:", self.file.display())?;
-        if self.line > 0 {
-            write!(f, "{}:{}:", self.line, self.column)?;
+        if !self.file.as_os_str().is_empty() {
+            write!(f, "{}:", self.file.display())?;
+            if self.line > 0 {
+                write!(f, "{}:{}:", self.line, self.column)?;
+            }
+            write!(f, " ")?;
         }
         if !self.key.is_empty() {
-            write!(f, " {}:", self.key)?;
+            write!(f, "{}: ", self.key)?;
         }
-        write!(f, " {}", self.message)?;
+        write!(f, "{}", self.message)?;
         if let Some(excerpt) = &self.excerpt {
             write!(f, "\n{excerpt}")?;
         }

@@ -1,11 +1,13 @@
 //! Weights that heed where a guide points.
 
 use schemars::{Schema, SchemaGenerator};
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::embed::deserialize;
 use super::entry::{Entry, Leaf, Rule};
-use super::number::{decimal, json_decimal};
+use super::number::json_decimal;
 use super::reader::{Reader, join};
 
 /// The exponent that `facing = true` stands for. Document 000 asks for a ≥ 0
@@ -25,6 +27,11 @@ pub enum Facing {
         /// The power of the distance, `a`.
         exponent: f32,
     },
+}
+
+impl Facing {
+    /// What the exponent may be.
+    pub(crate) const RULE: Rule = Rule::at_least(0.0);
 }
 
 impl Entry for Facing {
@@ -73,10 +80,21 @@ impl Entry for Facing {
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-        let text = match self {
-            Self::Off => "false".to_owned(),
-            Self::On { exponent } => format!("{{ exponent = {} }}", decimal(*exponent)),
-        };
-        visit(Leaf::plain(key, Some(text), doc));
+        visit(Leaf::of(key, self, doc));
     }
 }
+
+impl Serialize for Facing {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Off => serializer.serialize_bool(false),
+            Self::On { exponent } => {
+                let mut table = serializer.serialize_map(Some(1))?;
+                table.serialize_entry("exponent", exponent)?;
+                table.end()
+            }
+        }
+    }
+}
+
+deserialize!(Facing, Facing::RULE);

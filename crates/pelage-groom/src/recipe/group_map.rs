@@ -1,14 +1,17 @@
 //! The image that tells groups apart.
 
 use std::ops::Deref;
+use std::path::Path;
 
 use schemars::{Schema, SchemaGenerator};
+use serde::{Serialize, Serializer};
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::embed::deserialize;
 use super::entry::{Entry, Leaf, Rule};
 use super::map::{Blend, MapUse};
-use super::path::{FilePath, quoted};
+use super::path::FilePath;
 use super::reader::Reader;
 
 /// A map read by its codes: no filtering, no change of colour space. A recipe
@@ -55,7 +58,19 @@ impl Entry for GroupMap {
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
         visit(Leaf {
             maps: vec![(key.to_owned(), &self.0)],
-            ..Leaf::plain(key, Some(quoted(&self.0.path.written)), doc)
+            ..Leaf::of(key, self, doc)
         });
     }
+
+    fn settle(&mut self, folder: &Path) {
+        self.0.path.settle(folder);
+    }
 }
+
+impl Serialize for GroupMap {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.path.serialize(serializer)
+    }
+}
+
+deserialize!(GroupMap, Rule::ANY);

@@ -15,6 +15,6 @@ section! {
         /// Segments of a hair: one number, or one for each colour of `map`. A hair
         /// has one vertex more. Left out, as many as the guide of the group with
         /// the most segments.
-        pub segments: Option<Segments> = None => Rule::at_least(1.0),
+        pub segments: Option<Segments> = None => Segments::RULE,
     }
 }

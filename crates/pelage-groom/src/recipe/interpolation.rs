@@ -39,6 +39,6 @@ section! {
         pub space: InterpolationSpace = InterpolationSpace::Vertices => Rule::ANY,
         /// Whether guides that point away from the surface count less: false,
         /// true, or { exponent = a } (document 000, eq. 49).
-        pub facing: Facing = Facing::Off => Rule::at_least(0.0),
+        pub facing: Facing = Facing::Off => Facing::RULE,
     }
 }

@@ -2,11 +2,12 @@
 
 use pelage_surface::Wrap;
 use schemars::{Schema, SchemaGenerator};
+use serde::ser::SerializeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::entry::{Entry, Leaf, Rule};
-use super::path::{FilePath, quoted};
+use super::path::FilePath;
 use super::reader::{Reader, join};
 use super::word::{self, words};
 
@@ -111,22 +112,35 @@ impl MapUse {
         Some(using)
     }
 
-    /// The keys `map`, `channel`, … as they go into an inline table.
-    pub(crate) fn text(&self, standard_channel: Option<Channel>, standard_blend: Blend) -> String {
-        let mut text = format!("map = {}", quoted(&self.path.written));
+    /// Adds the keys `map`, `channel`, … to a table, where they are not what is
+    /// taken without them.
+    pub(crate) fn write<M: SerializeMap>(
+        &self,
+        standard_channel: Option<Channel>,
+        standard_blend: Blend,
+        table: &mut M,
+    ) -> Result<(), M::Error> {
+        table.serialize_entry("map", &self.path)?;
         if let Some(channel) = self.channel.filter(|_| self.channel != standard_channel) {
-            text += &format!(", channel = \"{channel}\"");
+            table.serialize_entry("channel", &channel)?;
         }
-        if self.wrap == Wrap::Clamp {
-            text += ", wrap = \"clamp\"";
+        if self.wrap != Wrap::default() {
+            table.serialize_entry("wrap", word_of(self.wrap))?;
         }
         if let Some(space) = self.space {
-            text += &format!(", space = \"{space}\"");
+            table.serialize_entry("space", &space)?;
         }
         if self.blend != standard_blend {
-            text += &format!(", blend = \"{}\"", self.blend);
+            table.serialize_entry("blend", &self.blend)?;
         }
-        text
+        Ok(())
+    }
+}
+
+fn word_of(wrap: Wrap) -> &'static str {
+    match wrap {
+        Wrap::Repeat => "repeat",
+        Wrap::Clamp => "clamp",
     }
 }
 
@@ -148,10 +162,6 @@ impl Entry for Wrap {
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-        let word = match self {
-            Wrap::Repeat => "\"repeat\"",
-            Wrap::Clamp => "\"clamp\"",
-        };
-        visit(Leaf::plain(key, Some(word.to_owned()), doc));
+        visit(Leaf::of(key, &word_of(*self), doc));
     }
 }

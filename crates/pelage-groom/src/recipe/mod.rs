@@ -28,13 +28,33 @@
 //! ```
 //!
 //! Each section is a struct declared once, with its keys, ranges, defaults and
-//! documentation; reading, checking, errors and the JSON Schema all come from
-//! that declaration.
+//! documentation; reading, checking, errors, the JSON Schema and serde's traits all
+//! come from that declaration.
+//!
+//! A recipe can be read and written by way of serde too, in the same layout:
+//!
+//! ```
+//! use pelage_groom::recipe::Recipe;
+//!
+//! let json = r#"{ "surface": { "mesh": "body.obj" }, "guides": { "curves": "g.usda" } }"#;
+//! let recipe: Recipe = serde_json::from_str(json)?;
+//! let again: Recipe = serde_json::from_str(&serde_json::to_string(&recipe)?)?;
+//! assert_eq!(again, recipe);
+//!
+//! let wrong = r#"{ "surface": { "mesh": "body.obj", "upp": "y" }, "guides": {} }"#;
+//! let error = serde_json::from_str::<Recipe>(wrong).unwrap_err().to_string();
+//! assert!(error.contains("surface.upp: unknown key"));
+//! assert!(error.contains("guides: missing"));
+//! # Ok::<(), serde_json::Error>(())
+//! ```
+//!
+//! [`Recipe::parse`] is the one that knows lines and columns.
 
 mod check;
 mod color;
 mod coloring;
 mod comb;
+mod embed;
 mod entry;
 mod error;
 mod excerpt;
@@ -103,7 +123,7 @@ pub use surface::{Surface, Up};
 use entry::Rule;
 use origin::Origin;
 
-section::section! {
+section::table! {
     /// The recipe of a groom: surface, guides and the properties of its hair.
     /// Lengths are in the unit of the mesh, angles in degrees, colours linear RGB,
     /// and files relative to the folder of the recipe.

@@ -1,6 +1,9 @@
 //! Numbers, switches and lists of numbers.
 
+use std::path::Path;
+
 use schemars::{Schema, SchemaGenerator};
+use serde::Serialize;
 use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::DeValue;
@@ -123,7 +126,7 @@ macro_rules! whole_entry {
             }
 
             fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-                visit(Leaf::plain(key, Some(self.to_string()), doc));
+                visit(Leaf::of(key, self, doc));
             }
         }
     };
@@ -151,7 +154,7 @@ impl Entry for f32 {
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-        visit(Leaf::plain(key, Some(decimal(*self)), doc));
+        visit(Leaf::of(key, self, doc));
     }
 }
 
@@ -175,7 +178,7 @@ impl Entry for f64 {
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-        visit(Leaf::plain(key, Some(format!("{self:?}")), doc));
+        visit(Leaf::of(key, self, doc));
     }
 }
 
@@ -192,12 +195,12 @@ impl Entry for bool {
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-        visit(Leaf::plain(key, Some(self.to_string()), doc));
+        visit(Leaf::of(key, self, doc));
     }
 }
 
 /// Lists of three, each entry under the rule of the list and named `key[i]`.
-impl<T: Entry> Entry for [T; 3] {
+impl<T: Entry + Serialize> Entry for [T; 3] {
     fn read(
         &mut self,
         value: &Spanned<DeValue<'_>>,
@@ -230,15 +233,16 @@ impl<T: Entry> Entry for [T; 3] {
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-        let mut all = Leaf::plain(key, None, doc);
-        let mut texts = Vec::new();
+        let mut all = Leaf::of(key, self, doc);
         for (i, item) in self.iter().enumerate() {
             item.walk(&format!("{key}[{i}]"), doc, &mut |leaf| {
-                texts.extend(leaf.text);
                 all.maps.extend(leaf.maps);
             });
         }
-        all.text = Some(format!("[{}]", texts.join(", ")));
         visit(all);
+    }
+
+    fn settle(&mut self, folder: &Path) {
+        self.iter_mut().for_each(|item| item.settle(folder));
     }
 }

@@ -64,10 +64,8 @@ impl Origin {
         match span {
             Some(_) => problem,
             None => Problem {
-                line: 0,
-                column: 0,
-                excerpt: None,
-                ..problem
+                file: file.clone(),
+                ..problem.without_place()
             },
         }
     }

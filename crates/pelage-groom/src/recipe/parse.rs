@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
+use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::Recipe;
 use super::check::check;
+use super::embed;
 use super::entry::{Entry, Rule};
 use super::error::{Problem, RecipeError};
 use super::map::MapUse;
@@ -25,13 +27,7 @@ impl Recipe {
     /// The error lists every mistake, each with its place.
     pub fn parse(text: &str, file: &Path) -> Result<Self, RecipeError> {
         let (recipe, mut problems) = read(text, file)?;
-        for unbuilt in recipe.unbuilt() {
-            // A value that is wrong in itself has been reported.
-            let wrong = |problem: &Problem| problem.key.starts_with(&unbuilt.key);
-            if !problems.iter().any(wrong) {
-                problems.push(recipe.unbuilt_problem(&unbuilt.key, unbuilt.message));
-            }
-        }
+        recipe.refuse_unbuilt(&mut problems);
         finish(recipe, problems)
     }
 
@@ -63,6 +59,67 @@ impl Recipe {
         self.walk("", "", &mut |leaf| maps.extend(leaf.maps));
         maps
     }
+
+    /// The same recipe with its relative paths starting at `folder`, for recipes
+    /// that were not read from a file of their own.
+    ///
+    /// ```
+    /// use pelage_groom::recipe::Recipe;
+    /// use std::path::Path;
+    ///
+    /// #[derive(serde::Deserialize)]
+    /// struct Shot {
+    ///     frames: [u32; 2],
+    ///     groom: Recipe,
+    /// }
+    ///
+    /// let text = r#"
+    /// frames = [1, 48]
+    /// groom.surface.mesh = "body.obj"
+    /// groom.guides.grow = { length = 0.3 }
+    /// "#;
+    /// let shot: Shot = toml::from_str(text)?;
+    /// let groom = shot.groom.in_folder(Path::new("hero"));
+    /// assert_eq!(groom.surface.mesh.resolved, Path::new("hero/body.obj"));
+    /// # Ok::<(), toml::de::Error>(())
+    /// ```
+    #[must_use]
+    pub fn in_folder(mut self, folder: &Path) -> Self {
+        self.settle(folder);
+        self
+    }
+
+    /// Adds the keys whose stage is missing to `problems`.
+    fn refuse_unbuilt(&self, problems: &mut Vec<Problem>) {
+        for unbuilt in self.unbuilt() {
+            // A value that is wrong in itself has been reported.
+            let wrong = |problem: &Problem| problem.key.starts_with(&unbuilt.key);
+            if !problems.iter().any(wrong) {
+                problems.push(self.unbuilt_problem(&unbuilt.key, unbuilt.message));
+            }
+        }
+    }
+}
+
+/// Accepts and refuses what [`Recipe::parse`] does; errors list every mistake
+/// with its key. Relative paths start at the current folder until
+/// [`Recipe::in_folder`] says otherwise. Needs a format that describes itself,
+/// as TOML, JSON and YAML do.
+impl<'de> Deserialize<'de> for Recipe {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut recipe = Self::default();
+        let mut problems = embed::read(deserializer, |value, reader| recipe.take(value, reader))?;
+        recipe.refuse_unbuilt(&mut problems);
+        embed::finish(recipe, problems)
+    }
+}
+
+impl Recipe {
+    /// Takes over what a table says, and checks it as a whole.
+    fn take(&mut self, table: &Spanned<DeValue<'_>>, reader: &mut Reader<'_>) {
+        self.read(table, "", Rule::ANY, reader);
+        check(self, reader);
+    }
 }
 
 /// What can be read, and what is wrong with the rest.
@@ -75,8 +132,7 @@ fn read(text: &str, file: &Path) -> Result<(Recipe, Vec<Problem>), RecipeError> 
     let table = Spanned::new(table.span(), DeValue::Table(table.into_inner()));
     let mut reader = Reader::new(text, file);
     let mut recipe = Recipe::default();
-    recipe.read(&table, "", Rule::ANY, &mut reader);
-    check(&recipe, &mut reader);
+    recipe.take(&table, &mut reader);
     let (problems, spans) = reader.finish();
     recipe.origin = Origin::new(file, text, spans);
     Ok((recipe, problems))

@@ -3,9 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use schemars::{Schema, SchemaGenerator};
+use serde::{Serialize, Serializer};
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::embed::deserialize;
 use super::entry::{Entry, Leaf, Rule};
 use super::reader::Reader;
 
@@ -41,11 +43,6 @@ impl std::fmt::Display for FilePath {
     }
 }
 
-/// `text` in quotes, with TOML's escapes.
-pub(crate) fn quoted(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
-}
-
 impl Entry for FilePath {
     fn read(&mut self, value: &Spanned<DeValue<'_>>, key: &str, _: Rule, reader: &mut Reader<'_>) {
         match value.get_ref().as_str() {
@@ -71,6 +68,18 @@ impl Entry for FilePath {
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-        visit(Leaf::plain(key, Some(quoted(&self.written)), doc));
+        visit(Leaf::of(key, self, doc));
+    }
+
+    fn settle(&mut self, folder: &Path) {
+        self.resolved = folder.join(&self.written);
     }
 }
+
+impl Serialize for FilePath {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.written)
+    }
+}
+
+deserialize!(FilePath, Rule::ANY);

@@ -13,12 +13,15 @@
 //!   takes the place of `value`; a map beside it acts on every value of it.
 
 use std::fmt::Debug;
+use std::path::Path;
 
 use schemars::{Schema, SchemaGenerator};
+use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::embed::deserialize;
 use super::entry::{Entry, Leaf, Rule};
 use super::map::{Blend, Channel, MapSpace, MapUse};
 use super::ramp::{self, Ramp};
@@ -73,7 +76,7 @@ impl Default for Property<[f32; 3]> {
 }
 
 /// What the values of properties, numbers and colours, have in common.
-pub(crate) trait PropertyValue: Copy + Debug + PartialEq {
+pub(crate) trait PropertyValue: Copy + Debug + PartialEq + Serialize {
     /// The channel read by default.
     const CHANNEL: Option<Channel>;
     /// How maps act by default.
@@ -94,9 +97,6 @@ pub(crate) trait PropertyValue: Copy + Debug + PartialEq {
 
     /// Whether a multiplied map can change nothing.
     fn is_zero(&self) -> bool;
-
-    /// The plain form as TOML.
-    fn text(&self) -> String;
 
     /// The plain form as JSON.
     fn json(&self) -> Value;
@@ -135,8 +135,18 @@ impl<V: PropertyValue> Entry for Property<V> {
             maps: self.map.iter().map(|map| (key.to_owned(), map)).collect(),
             zero: self.ramp.is_none() && self.value.is_zero(),
             ramp: self.ramp.is_some(),
-            ..Leaf::plain(key, Some(text(self)), doc)
+            ..Leaf::of(key, self, doc)
         });
+    }
+
+    fn settle(&mut self, folder: &Path) {
+        if let Some(map) = &mut self.map {
+            map.path.settle(folder);
+        }
+    }
+
+    fn is_ramp(&self) -> bool {
+        self.ramp.is_some()
     }
 }
 
@@ -184,18 +194,26 @@ fn read_table<V: PropertyValue>(
     }
 }
 
-/// The property as TOML: the plain form where that says it all.
-fn text<V: PropertyValue>(property: &Property<V>) -> String {
-    let value = match &property.ramp {
-        Some(ramp) => format!("ramp = {}", ramp::text(ramp)),
-        None if property.map.is_none() => return property.value.text(),
-        None => format!("value = {}", property.value.text()),
-    };
-    match &property.map {
-        Some(map) => format!("{{ {value}, {} }}", map.text(V::CHANNEL, V::BLEND)),
-        None => format!("{{ {value} }}"),
+/// The plain form where that says it all, else the table.
+impl<V: PropertyValue> Serialize for Property<V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if self.map.is_none() && self.ramp.is_none() {
+            return self.value.serialize(serializer);
+        }
+        let mut table = serializer.serialize_map(None)?;
+        match &self.ramp {
+            Some(ramp) => table.serialize_entry("ramp", ramp)?,
+            None => table.serialize_entry("value", &self.value)?,
+        }
+        if let Some(map) = &self.map {
+            map.write(V::CHANNEL, V::BLEND, &mut table)?;
+        }
+        table.end()
     }
 }
+
+deserialize!(ScalarProperty, Rule::ANY.with_ramp());
+deserialize!(ColorProperty, Rule::ANY.with_ramp());
 
 /// The schema of the table form.
 fn table_schema<V: PropertyValue>(rule: Rule, generator: &mut SchemaGenerator) -> Value {

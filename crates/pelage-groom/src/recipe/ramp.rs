@@ -1,5 +1,6 @@
 //! Values along a strand: `{ ramp = [[0.0, 1.0], [1.0, 0.2]] }`.
 
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::DeValue;
@@ -52,11 +53,26 @@ pub(crate) fn read<V: PropertyValue>(
     Some(Ramp { points })
 }
 
-/// The list as TOML.
-pub(crate) fn text<V: PropertyValue>(ramp: &Ramp<V>) -> String {
-    let point = |(t, value): &(f32, V)| format!("[{}, {}]", decimal(*t), value.text());
-    let points: Vec<_> = ramp.points.iter().map(point).collect();
-    format!("[{}]", points.join(", "))
+impl<V: Serialize> Serialize for Ramp<V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.points.serialize(serializer)
+    }
+}
+
+/// Which keys along a strand are written: a ramp at the root leaves the others
+/// out.
+#[derive(Default)]
+pub(crate) struct Along {
+    ramp: bool,
+}
+
+impl Along {
+    /// Whether the key `name`, the next of its section, is written.
+    pub(crate) fn has(&mut self, name: &str, is_ramp: bool) -> bool {
+        let told = self.ramp && matches!(name, "center" | "tip");
+        self.ramp |= is_ramp;
+        !told
+    }
 }
 
 /// The schema of the list.

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::embed::inline;
 use super::error::{Problem, ProblemKind};
 use super::excerpt::{Excerpt, Place};
 use super::suggest::nearest;
@@ -35,7 +36,7 @@ pub(crate) fn join(key: &str, name: &str) -> String {
     let name = if !name.is_empty() && name.chars().all(bare) {
         name.to_owned()
     } else {
-        super::path::quoted(name)
+        inline(&name)
     };
     if key.is_empty() {
         name

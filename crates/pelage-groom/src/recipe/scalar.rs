@@ -6,7 +6,7 @@ use toml::de::DeValue;
 
 use super::entry::Rule;
 use super::map::{Blend, Channel};
-use super::number::{self, decimal, json_decimal};
+use super::number::{self, json_decimal};
 use super::property::PropertyValue;
 use super::reader::Reader;
 
@@ -30,10 +30,6 @@ impl PropertyValue for f32 {
 
     fn is_zero(&self) -> bool {
         *self == 0.0
-    }
-
-    fn text(&self) -> String {
-        decimal(*self)
     }
 
     fn json(&self) -> Value {

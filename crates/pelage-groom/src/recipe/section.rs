@@ -3,13 +3,26 @@
 //! A section's keys, ranges, defaults and descriptions are needed by whoever
 //! reads a recipe, checks it, explains what is wrong, offers completion in an
 //! editor or prints a template. The macro makes the struct and all of these
-//! from one list, so they cannot disagree. serde's derive would read as well,
-//! but stops at the first error and knows neither ranges nor, behind an
-//! untagged enum such as "a number or a table", the column of the value.
+//! from one list, so they cannot disagree; `Serialize` and `Deserialize` too, the
+//! latter by way of the same reader. serde's derive would read as well, but stops
+//! at the first error and knows neither ranges nor, behind an untagged enum such
+//! as "a number or a table", the column of the value.
 
 /// Declares a section: `/// doc`, `pub key: Type = default => rule,` for each key.
-/// A trailing `; name: Type` adds a field that is no key.
 macro_rules! section {
+    ($(#[$($doc:tt)*])* pub struct $name:ident { $($keys:tt)* }) => {
+        $crate::recipe::section::table! {
+            $(#[$($doc)*])*
+            pub struct $name { $($keys)* }
+        }
+        $crate::recipe::embed::deserialize!($name, $crate::recipe::entry::Rule::ANY);
+    };
+}
+pub(crate) use section;
+
+/// `section!` but for `Deserialize`: the recipe itself is more than its keys.
+/// A trailing `; name: Type` adds a field that is no key.
+macro_rules! table {
     (
         $(#[doc = $doc:literal])*
         pub struct $name:ident {
@@ -101,7 +114,35 @@ macro_rules! section {
                     self.$field.walk(&name, concat!($($field_doc, "\n"),*), visit);
                 )+
             }
+
+            fn settle(&mut self, folder: &std::path::Path) {
+                $(self.$field.settle(folder);)+
+            }
+        }
+
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                use serde::ser::SerializeStruct;
+
+                use $crate::recipe::entry::Entry;
+
+                let mut along = $crate::recipe::ramp::Along::default();
+                let written = [$(self.$field.is_written() && along.has(
+                    stringify!($field),
+                    self.$field.is_ramp(),
+                )),+];
+                let count = written.iter().filter(|written| **written).count();
+                let mut keys = serializer.serialize_struct(stringify!($name), count)?;
+                let mut written = written.into_iter();
+                $(
+                    match written.next() {
+                        Some(true) => keys.serialize_field(stringify!($field), &self.$field)?,
+                        _ => keys.skip_field(stringify!($field))?,
+                    }
+                )+
+                keys.end()
+            }
         }
     };
 }
-pub(crate) use section;
+pub(crate) use table;

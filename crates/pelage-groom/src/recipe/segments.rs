@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 
 use schemars::{Schema, SchemaGenerator};
+use serde::{Serialize, Serializer};
 use serde_json::json;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::color::hex_codes;
+use super::embed::deserialize;
 use super::entry::{Entry, Leaf, Rule};
 use super::reader::{Reader, join};
 
@@ -28,6 +30,9 @@ impl Default for Segments {
 }
 
 impl Segments {
+    /// What the numbers may be.
+    pub(crate) const RULE: Rule = Rule::at_least(1.0);
+
     fn read_colors(
         table: &DeTable<'_>,
         key: &str,
@@ -97,15 +102,19 @@ impl Entry for Segments {
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-        let text = match self {
-            Self::All(number) => number.to_string(),
-            Self::ByColor(colors) => {
-                let entry =
-                    |([r, g, b], n): (&[u8; 3], &u32)| format!("\"#{r:02x}{g:02x}{b:02x}\" = {n}");
-                let entries: Vec<_> = colors.iter().map(entry).collect();
-                format!("{{ {} }}", entries.join(", "))
-            }
-        };
-        visit(Leaf::plain(key, Some(text), doc));
+        visit(Leaf::of(key, self, doc));
     }
 }
+
+impl Serialize for Segments {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::All(number) => number.serialize(serializer),
+            Self::ByColor(colors) => serializer.collect_map(
+                (colors.iter()).map(|([r, g, b], n)| (format!("#{r:02x}{g:02x}{b:02x}"), n)),
+            ),
+        }
+    }
+}
+
+deserialize!(Segments, Segments::RULE);

@@ -2,6 +2,7 @@
 
 use super::Recipe;
 use super::entry::{Entry, Leaf};
+use super::ramp::Along;
 use super::schema::description;
 
 /// Width of the comments in a template.
@@ -42,9 +43,8 @@ struct Writer {
     text: String,
     /// The section it is in.
     section: String,
-    /// Whether the root of that section has a ramp, which leaves the keys of
-    /// the other places along the strand out.
-    ramp: bool,
+    /// Which keys of that section a ramp leaves out.
+    along: Along,
 }
 
 impl Writer {
@@ -58,12 +58,11 @@ impl Writer {
             let gap = if self.text.is_empty() { "" } else { "\n" };
             self.text += &format!("{gap}[{section}]\n");
             self.section = section.to_owned();
-            self.ramp = false;
+            self.along = Along::default();
         }
-        if self.ramp && matches!(name, "center" | "tip") {
+        if !self.along.has(name, leaf.ramp) {
             return;
         }
-        self.ramp |= leaf.ramp;
         if documented {
             self.comment(leaf.doc);
         }

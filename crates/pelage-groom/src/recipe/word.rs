@@ -80,10 +80,17 @@ macro_rules! words {
                 doc: &'static str,
                 visit: &mut dyn FnMut($crate::recipe::entry::Leaf<'a>),
             ) {
-                let text = format!("\"{}\"", self.word());
-                visit($crate::recipe::entry::Leaf::plain(key, Some(text), doc));
+                visit($crate::recipe::entry::Leaf::of(key, self, doc));
             }
         }
+
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.serialize_str(self.word())
+            }
+        }
+
+        $crate::recipe::embed::deserialize!($name, $crate::recipe::entry::Rule::ANY);
     };
 }
 pub(crate) use words;

@@ -17,6 +17,15 @@ pub fn recipes(name: &str) -> Vec<(PathBuf, String)> {
     paths.into_iter().map(read).collect()
 }
 
+/// Name and text of the recipes of the example grooms.
+pub fn examples() -> Vec<(PathBuf, String)> {
+    let root = folder().join("../../pelage-examples/src");
+    let names = ["animal", "ball", "grass", "head"];
+    let paths = names.map(|name| root.join(name).join("groom.toml"));
+    let read = |path: PathBuf| (path.clone(), std::fs::read_to_string(path).unwrap());
+    paths.into_iter().map(read).collect()
+}
+
 /// Whether `found` is what the file `path` holds. With `PELAGE_BLESS=1` the
 /// file is written instead.
 pub fn is_checked_in(path: &Path, found: &str) -> bool {

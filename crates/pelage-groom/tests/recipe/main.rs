@@ -7,6 +7,9 @@
 
 mod bad;
 mod corpus;
+mod generated;
 mod good;
+mod maker;
 mod mutation;
 mod schema;
+mod typed;

@@ -1,10 +1,11 @@
 //! The JSON Schema that editors use.
 
 use std::path::Path;
+use std::process::Command;
 
-use pelage_groom::recipe::{schema, schema_text};
+use pelage_groom::recipe::{Recipe, schema, schema_text};
 
-use super::corpus::is_checked_in;
+use super::corpus::{examples, folder, is_checked_in, recipes};
 
 #[test]
 fn the_checked_in_schema_is_up_to_date() {
@@ -51,4 +52,28 @@ fn every_key_of_the_schema_is_described() {
         }
     }
     check("", &schema());
+}
+
+#[test]
+fn the_schema_accepts_recipes_as_json() {
+    let python = std::env::var("PELAGE_PYTHON").unwrap_or_else(|_| "python3".into());
+    let run = |arguments: &[&std::ffi::OsStr]| Command::new(&python).args(arguments).output();
+    let module = run(&["-c".as_ref(), "import jsonschema".as_ref()]);
+    if !module.is_ok_and(|output| output.status.success()) {
+        eprintln!("skipped: {python} has no module jsonschema (set PELAGE_PYTHON)");
+        return;
+    }
+    let mut lines = String::new();
+    for (path, text) in recipes("good").into_iter().chain(examples()) {
+        let recipe = Recipe::parse(&text, &path).unwrap();
+        lines += &(serde_json::to_string(&recipe).unwrap() + "\n");
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let (written, schema) = (folder.join("recipes.jsonl"), folder.join("schema.json"));
+    std::fs::write(&written, lines).unwrap();
+    std::fs::write(&schema, schema_text()).unwrap();
+    let script = self::folder().join("recipe/validate.py");
+    let output = run(&[script.as_ref(), schema.as_ref(), written.as_ref()]).unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
 }

@@ -298,7 +298,7 @@ impl<'a> Reader<'a> {
         transform_points(&mut set.curves.points, &world);
         transform_normals(&mut set.curves.normals, &world);
         // Widths are lengths of the prim's own space.
-        let scale = world.determinant().abs().cbrt() as f32;
+        let scale = libm::cbrt(world.determinant().abs()) as f32;
         if scale != 1.0 {
             set.curves.widths.iter_mut().for_each(|w| *w *= scale);
         }

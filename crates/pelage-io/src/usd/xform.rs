@@ -6,7 +6,7 @@
 use super::names;
 use super::stage::Scene;
 use crate::ReadError;
-use glam::{DMat4, DQuat, DVec3};
+use glam::{DMat3, DMat4, DQuat, DVec3};
 use openusd::sdf;
 use sdf::Value;
 
@@ -105,10 +105,22 @@ fn operation(name: &str, value: Value) -> Option<DMat4> {
             // The axis named first turns first.
             axes.iter().try_fold(DMat4::IDENTITY, |turned, &name| {
                 let axis = along(name)?;
-                Some(DMat4::from_axis_angle(axis, angles.dot(axis).to_radians()) * turned)
+                Some(turn(axis, angles.dot(axis)) * turned)
             })
         }
     }
+}
+
+/// The turn about `axis` by an angle in degrees. glam's takes its sine from the
+/// platform, whose last bit differs from machine to machine.
+fn turn(axis: DVec3, angle: f64) -> DMat4 {
+    let (sin, cos) = libm::sincos(angle.to_radians());
+    let turned = |v: DVec3| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos));
+    DMat4::from_mat3(DMat3::from_cols(
+        turned(DVec3::X),
+        turned(DVec3::Y),
+        turned(DVec3::Z),
+    ))
 }
 
 fn single(text: &str) -> Option<char> {
