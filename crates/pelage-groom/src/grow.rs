@@ -39,7 +39,10 @@ pub(crate) fn grow(
         .map(|i| {
             let x = (radical_inverse(2, i + 1) + shifts[0]).fract();
             let y = (radical_inverse(3, i + 1) + shifts[1]).fract();
-            let root = sampler.place((x * 2f64.powi(64)) as u64, (y * 2f64.powi(32)) as u32);
+            let root = sampler.place(
+                (x * (1u128 << 64) as f64) as u64,
+                (y * (1u64 << 32) as f64) as u32,
+            );
             let frame = mesh.frame(&root);
             let phase = uniform(grow.seed, i, Channel::GuideCurl);
             Guide {

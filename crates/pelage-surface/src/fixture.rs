@@ -44,14 +44,14 @@ pub(crate) fn maps() -> Vec<(&'static str, ImageMap)> {
         let texels = (0..64 * 64).map(|i| texel(i % 64, i / 64)).collect();
         ImageMap::new(64, 64, 1, texels, false).unwrap()
     };
-    let noise = |x: u32, y: u32| (crate::hash((y * 64 + x) as u64) >> 40) as f32 / 2f32.powi(24);
+    let noise = |x: u32, y: u32| (crate::hash((y * 64 + x) as u64) >> 40) as f32 / (1 << 24) as f32;
     vec![
         ("uniform", map(&|_, _| 0.7)),
         ("checkerboard", map(&|x, y| ((x / 8 + y / 8) % 2) as f32)),
         ("noise", map(&noise)),
         (
             "heavy tail",
-            map(&|x, y| 1.0 / (noise(x, y).powi(2) + 1e-3)),
+            map(&|x, y| 1.0 / (noise(x, y) * noise(x, y) + 1e-3)),
         ),
         (
             "one bright texel",

@@ -75,7 +75,7 @@ impl<'a> RootPdf<'a> {
         let width = (end - start as u128) as f64;
         // A share is at most 2^64 wide; the saturating casts keep its last number.
         let inside = ((root * root * width) as u64).min((end - 1 - start as u128) as u64);
-        Some((start + inside, (along * 2f64.powi(32)) as u32))
+        Some((start + inside, (along * (1u64 << 32) as f64) as u32))
     }
 
     /// The piece that holds `place`, by its index along the distribution.
@@ -216,7 +216,8 @@ mod tests {
                 .iter()
                 .zip(&expected)
                 .filter(|(_, e)| **e > 0.0)
-                .map(|(f, e)| (f - e * drawn as f64).powi(2) / (e * drawn as f64))
+                .map(|(f, e)| (f, e * drawn as f64))
+                .map(|(f, e)| (f - e) * (f - e) / e)
                 .sum();
             // 143 degrees of freedom: 240 has a probability of 1e-6. Cells that cut
             // through pieces differ a little from the integral over whole parts.

@@ -99,7 +99,8 @@ impl Lamp {
                 self.estimate(&sampler, samples),
             ];
             for (square, estimate) in squares.iter_mut().zip(estimates) {
-                *square += (estimate / truth - 1.0).powi(2);
+                let error = estimate / truth - 1.0;
+                *square += error * error;
             }
         }
         Ok(squares.map(|s| (s / TRIALS as f64).sqrt()))
@@ -118,7 +119,7 @@ impl Lamp {
     fn by_rejection(&self, uniform: &RootSampler, pdf: &RootPdf, samples: u64) -> f64 {
         let brightest = self.radiance.texels().iter().copied().fold(0.0, f32::max);
         let taken = (0..)
-            .map(|i| (uniform.root(i), (hash(!i) >> 40) as f64 / 2f64.powi(24)))
+            .map(|i| (uniform.root(i), (hash(!i) >> 40) as f64 / (1 << 24) as f64))
             .filter(|(root, coin)| coin * (brightest as f64) < self.radiance(root))
             .take(samples as usize);
         let sum: f64 = taken
@@ -145,8 +146,8 @@ fn shade() -> Result<Mesh, Box<dyn Error>> {
     for y in 0..=rows {
         for x in 0..=columns {
             let [u, v] = at(x, y);
-            let radius = 0.3 + 0.25 * (0.5 * TAU * v).sin();
-            let point = [radius * (TAU * u).cos(), v, radius * (TAU * u).sin()];
+            let radius = 0.3 + 0.25 * libm::sin(0.5 * TAU * v);
+            let point = [radius * libm::cos(TAU * u), v, radius * libm::sin(TAU * u)];
             mesh.positions.push(point.map(|c| c as f32));
         }
     }

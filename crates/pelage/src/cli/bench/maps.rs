@@ -34,14 +34,14 @@ pub fn map(name: &'static str, size: u32) -> Map {
             "noise 512" => noise(u * 512.0, v * 512.0),
             // A sky with a sun of a few texels, 10^6 times as bright.
             "sun" => {
-                let apart = (u - 0.3).hypot(v - 0.7);
+                let apart = libm::hypot(u - 0.3, v - 0.7);
                 0.2 + 0.8 * v + if apart < 0.004 { 1e6 } else { 0.0 }
             }
             // A tenth of the texels glow, their brightness without a mean scale.
             "embers" => {
                 let dice = dice(x, y);
                 0.01 + if dice < 0.1 {
-                    (0.1 / (dice + 1e-7)).powf(1.2)
+                    libm::pow(0.1 / (dice + 1e-7), 1.2)
                 } else {
                     0.0
                 }

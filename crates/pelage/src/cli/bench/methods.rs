@@ -102,7 +102,7 @@ impl Alias {
         let (mut low, mut high): (VecDeque<usize>, VecDeque<usize>) =
             (0..count).partition(|&i| height[i] < 1.0);
         while let (Some(short), Some(&tall)) = (low.pop_front(), high.front()) {
-            columns[short] = ((height[short] * 2f64.powi(32)) as u32, tall as u32);
+            columns[short] = ((height[short] * (1u64 << 32) as f64) as u32, tall as u32);
             height[tall] -= 1.0 - height[short];
             if height[tall] < 1.0 {
                 high.pop_front();

@@ -16,7 +16,7 @@ pub fn by_cells(weights: &[f64], effort: Effort) -> Vec<f64> {
     CELLS
         .iter()
         .map(|cells| {
-            let bits = (elements * cells).log2().round() as u32;
+            let bits = libm::log2(elements * cells).round() as u32;
             // The weights are those of a distribution that was made.
             let distribution = Distribution::with_cells(weights, bits).expect("weights");
             rate(effort, |fraction| distribution.pick(fraction).index)
@@ -46,7 +46,7 @@ fn sky_weights(map: &Map) -> Vec<f64> {
     texels
         .map(|(i, &light)| {
             let angle = ((i / width) as f64 + 0.5) / height * std::f64::consts::PI;
-            light.max(1e-6) as f64 * angle.sin()
+            light.max(1e-6) as f64 * libm::sin(angle)
         })
         .collect()
 }

@@ -1,5 +1,6 @@
 //! Closed surfaces of any number of triangles, for measuring.
 
+use libm::{cos, sin};
 use pelage::surface::{Mesh, PolygonMesh};
 use std::f64::consts::TAU;
 
@@ -50,17 +51,17 @@ fn sheet(columns: u32, rows: u32, shape: fn(f64, f64) -> [f64; 3]) -> Mesh {
 
 fn torus(u: f64, v: f64) -> [f64; 3] {
     let (a, b) = (TAU * u, TAU * v);
-    let radius = 1.0 + 0.4 * b.cos();
-    [radius * a.cos(), 0.4 * b.sin(), -radius * a.sin()]
+    let radius = 1.0 + 0.4 * cos(b);
+    [radius * cos(a), 0.4 * sin(b), -radius * sin(a)]
 }
 
 /// A tube about a trefoil knot.
 fn knot(u: f64, v: f64) -> [f64; 3] {
     let centre = |a: f64| {
         [
-            a.sin() + 2.0 * (2.0 * a).sin(),
-            a.cos() - 2.0 * (2.0 * a).cos(),
-            -(3.0 * a).sin(),
+            sin(a) + 2.0 * sin(2.0 * a),
+            cos(a) - 2.0 * cos(2.0 * a),
+            -sin(3.0 * a),
         ]
     };
     let (a, b) = (TAU * u, TAU * v);
@@ -68,17 +69,17 @@ fn knot(u: f64, v: f64) -> [f64; 3] {
     let along: [f64; 3] = std::array::from_fn(|k| q[k] - p[k]);
     let side = unit(cross(along, [0.0, 0.0, 1.0]));
     let up = unit(cross(side, along));
-    std::array::from_fn(|k| p[k] + 0.5 * (b.cos() * side[k] + b.sin() * up[k]))
+    std::array::from_fn(|k| p[k] + 0.5 * (cos(b) * side[k] + sin(b) * up[k]))
 }
 
 fn wrinkled_ball(u: f64, v: f64) -> [f64; 3] {
     let (a, b) = (TAU * u, 0.5 * TAU * (v - 0.5));
-    let wrinkles = 0.03 * (40.0 * b).sin() * (30.0 * a).cos() * b.cos();
+    let wrinkles = 0.03 * sin(40.0 * b) * cos(30.0 * a) * cos(b);
     let radius = 1.0 + wrinkles;
     [
-        radius * b.cos() * a.cos(),
-        radius * b.sin(),
-        -radius * b.cos() * a.sin(),
+        radius * cos(b) * cos(a),
+        radius * sin(b),
+        -radius * cos(b) * sin(a),
     ]
 }
 
