@@ -30,6 +30,10 @@ const SLICE: u128 = 1 << 14;
 /// Hairs that follow each other in a tile; with roots of 16 bytes, runs of 512 bytes.
 const RUN: usize = 32;
 
+/// Roots in a line of the cache: so many columns are drawn in turn for each batch, so
+/// that a line of the tile is filled while it is in the first-level cache.
+const LINE: usize = 4;
+
 /// A tile's rows are padded, since rows a power of two apart would share cache sets.
 const ROW: usize = RUN + 4;
 
@@ -128,12 +132,14 @@ impl RootSampler {
         let stride = roots.len() / LANES;
         let mut batch = [SurfacePoint::default(); BATCH];
         for start in (0..stride).step_by(RUN) {
-            for column in 0..RUN {
-                let hair = first + (start + column) as u64;
+            for columns in (0..RUN).step_by(LINE) {
                 for lane in (0..LANES).step_by(BATCH) {
-                    self.draw(|k| hair + ((lane + k) * stride) as u64, &mut batch);
-                    for (k, root) in batch.iter().enumerate() {
-                        tile[(lane + k) * ROW + column] = *root;
+                    for column in columns..columns + LINE {
+                        let hair = first + (start + column) as u64;
+                        self.draw(|k| hair + ((lane + k) * stride) as u64, &mut batch);
+                        for (k, root) in batch.iter().enumerate() {
+                            tile[(lane + k) * ROW + column] = *root;
+                        }
                     }
                 }
             }

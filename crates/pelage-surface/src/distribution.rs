@@ -38,7 +38,7 @@ pub struct Pick {
 }
 
 /// Entries after the last start, so that a pick may read ahead.
-const PADDING: usize = 2;
+const PADDING: usize = 3;
 
 impl Distribution {
     /// A distribution in proportion to `weights`, which must be positive and finite;
@@ -80,38 +80,23 @@ impl Distribution {
     }
 
     /// The element in whose share `fraction` (of 2^64) falls.
-    #[inline(always)]
+    #[inline]
     pub fn pick(&self, fraction: u64) -> Pick {
-        let index = self.find(fraction);
-        let (start, end) = (self.starts[index], self.starts[index + 1]);
-        // Halved, both fit the signed integers that processors turn into floats.
-        let inside = ((fraction - start) >> 1) as i64 as f64 as f32;
-        let width = ((end - start) >> 1 | 1) as i64 as f64 as f32;
+        let (index, [inside, width]) = self.tables().locate(fraction);
         Pick {
             index,
-            rest: inside / width,
+            rest: inside as f32 / width as f32,
         }
     }
 
-    /// Index of the last start at or below `fraction`. A cell holds one start on the
-    /// mean, so the next two are looked at without a branch that could be guessed
-    /// wrong; what is left to bisect is rare for any weights.
+    /// What picking reads.
     #[inline(always)]
-    fn find(&self, fraction: u64) -> usize {
-        let cell = (fraction >> self.shift) as usize;
-        let first = self.grid[cell] as usize;
-        let next = &self.starts[first + 1..first + 1 + PADDING];
-        let index = first + (next[0] <= fraction) as usize + (next[1] <= fraction) as usize;
-        if next[1] > fraction {
-            return index;
+    pub(crate) fn tables(&self) -> Tables<'_> {
+        Tables {
+            starts: &self.starts,
+            grid: &self.grid,
+            shift: self.shift,
         }
-        self.bisect(first, self.grid[cell + 1] as usize, fraction)
-    }
-
-    #[cold]
-    fn bisect(&self, first: usize, last: usize, fraction: u64) -> usize {
-        let inside = &self.starts[first + 1..last + 1];
-        first + inside.partition_point(|&start| start <= fraction)
     }
 
     /// The share of element `index`, in fractions of 2^64; the end may be 2^64.
@@ -151,6 +136,47 @@ impl Distribution {
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         self.starts.len() * 8 + self.grid.len() * 4
+    }
+}
+
+/// The arrays of a distribution, for loops over many picks: a copy stays in registers,
+/// where the fields of a reference would be read again at every pick.
+#[derive(Clone, Copy)]
+pub(crate) struct Tables<'a> {
+    starts: &'a [u64],
+    grid: &'a [u32],
+    shift: u32,
+}
+
+impl Tables<'_> {
+    /// The element, how far into its share the fraction fell, and the width of the share.
+    /// Those two are cut to 31 bits, so that processors turn many into floats at once;
+    /// the width is at least 1.
+    ///
+    /// A cell of the grid holds one start on the mean, so the next two are looked at
+    /// without a branch that could be guessed wrong; what is left to bisect is rare for
+    /// any weights.
+    #[inline(always)]
+    pub(crate) fn locate(self, fraction: u64) -> (usize, [i32; 2]) {
+        let cell = (fraction >> self.shift) as usize;
+        let first = self.grid[cell] as usize;
+        let near = &self.starts[first..first + 4];
+        let further = (near[1] <= fraction) as usize + (near[2] <= fraction) as usize;
+        let (mut index, mut start, mut end) = (first + further, near[further], near[further + 1]);
+        if near[2] <= fraction {
+            index = self.bisect(first, self.grid[cell + 1] as usize, fraction);
+            (start, end) = (self.starts[index], self.starts[index + 1]);
+        }
+        let width = (end - start).max(1);
+        let cut = 33u32.saturating_sub(width.leading_zeros());
+        let inside = (fraction - start) >> cut;
+        (index, [inside as i32, (width >> cut) as i32])
+    }
+
+    #[cold]
+    fn bisect(self, first: usize, last: usize, fraction: u64) -> usize {
+        let inside = &self.starts[first + 1..last + 1];
+        first + inside.partition_point(|&start| start <= fraction)
     }
 }
 

@@ -56,7 +56,7 @@ impl Pieces {
             if triangles as u64 + splits.len() as u64 > hosts {
                 return None;
             }
-            codes.push(((host as u64) << part_bits) as u32 | local);
+            codes.push(host << part_bits | local);
         }
         Some(Self {
             codes,
@@ -68,16 +68,19 @@ impl Pieces {
     }
 
     /// Triangle and part of piece `index`.
-    #[inline(always)]
     pub(crate) fn get(&self, index: usize) -> (u32, Part) {
-        let code = self.codes[index] as u64;
-        let part = self.parts[(code & ((1 << self.part_bits) - 1)) as usize];
-        let host = (code >> self.part_bits) as u32;
-        if host < self.triangles {
-            (host, part)
-        } else {
-            let (triangle, base) = self.splits[(host - self.triangles) as usize];
-            (triangle, base.part(part))
+        self.names().get(index)
+    }
+
+    /// What naming a piece reads.
+    #[inline(always)]
+    pub(crate) fn names(&self) -> Names<'_> {
+        Names {
+            codes: &self.codes,
+            part_bits: self.part_bits,
+            parts: &self.parts,
+            triangles: self.triangles,
+            splits: &self.splits,
         }
     }
 
@@ -94,6 +97,38 @@ impl Pieces {
     /// Bytes held.
     pub(crate) fn bytes(&self) -> usize {
         self.codes.len() * 4 + size_of_val(&self.parts[..]) + size_of_val(&self.splits[..])
+    }
+}
+
+/// The arrays of the pieces, for loops over many (see
+/// [`Tables`](crate::distribution::Tables)).
+#[derive(Clone, Copy)]
+pub(crate) struct Names<'a> {
+    codes: &'a [u32],
+    part_bits: u32,
+    parts: &'a [Part],
+    triangles: u32,
+    splits: &'a [(u32, Part)],
+}
+
+impl Names<'_> {
+    /// Triangle and part of piece `index`.
+    #[inline(always)]
+    pub(crate) fn get(self, index: usize) -> (u32, Part) {
+        let code = self.codes[index];
+        let part = self.parts[(code & ((1 << self.part_bits) - 1)) as usize];
+        let host = code >> self.part_bits;
+        if host < self.triangles {
+            (host, part)
+        } else {
+            self.below_split(host, part)
+        }
+    }
+
+    #[cold]
+    fn below_split(self, host: u32, part: Part) -> (u32, Part) {
+        let (triangle, base) = self.splits[(host - self.triangles) as usize];
+        (triangle, base.part(part))
     }
 }
 

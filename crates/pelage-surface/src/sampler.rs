@@ -89,25 +89,30 @@ impl RootSampler {
     /// arithmetic of many at once and wait for the memory of many at once.
     #[inline(always)]
     fn lead<const N: usize>(&self, xs: &[u64; N], ys: &[u32; N], places: &mut [SurfacePoint; N]) {
-        let mut along = [0.0; N];
+        let [mut inside, mut width] = [[0; N]; 2];
+        let mut triangles = [0; N];
         let [mut u, mut v, mut size] = [[0.0; N]; 3];
+        let (tables, names) = (self.distribution.tables(), self.pieces.names());
         for k in 0..N {
-            let pick = self.distribution.pick(xs[k]);
-            let (triangle, part) = self.pieces.get(pick.index);
-            places[k].triangle = triangle;
-            along[k] = pick.rest;
+            let (index, [along, all]) = tables.locate(xs[k]);
+            let (triangle, part) = names.get(index);
+            (inside[k], width[k]) = (along, all);
+            triangles[k] = triangle;
             [u[k], v[k]] = part.origin;
             size[k] = part.size;
         }
         // Document 004, 2.1.5: a triangle's area grows with the square of the distance
         // from its first corner.
         for k in 0..N {
-            let root = along[k].sqrt();
+            let root = (inside[k] as f32 / width[k] as f32).sqrt();
             u[k] += size[k] * (1.0 - root);
             v[k] += size[k] * (fraction(ys[k]) * root);
         }
         for k in 0..N {
-            places[k].barycentric = [(1.0 - u[k] - v[k]).max(0.0), u[k], v[k]];
+            places[k] = SurfacePoint {
+                triangle: triangles[k],
+                barycentric: [(1.0 - u[k] - v[k]).max(0.0), u[k], v[k]],
+            };
         }
     }
 
