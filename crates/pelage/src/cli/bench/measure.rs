@@ -42,6 +42,22 @@ pub struct Effort {
     pub runs: usize,
 }
 
+impl Effort {
+    /// As many samples as fit, by drawing more and more of them with `draw`, which tells
+    /// the seconds it took.
+    pub fn samples_for(&self, draw: &mut impl FnMut(u64) -> f64) -> u64 {
+        let mut samples = 64;
+        loop {
+            let fits = self.seconds * samples as f64 / draw(samples).max(1e-9);
+            // A tenth of what fits tells well enough how fast it goes.
+            if samples as f64 * 10.0 >= fits || samples >= self.samples {
+                return self.samples.min(fits as u64).max(64);
+            }
+            samples = (samples * 8).min(self.samples);
+        }
+    }
+}
+
 /// Measures `method` with `threads` threads.
 pub fn measure(
     surface: &Surface,
@@ -71,9 +87,7 @@ pub fn measure(
         });
         started.elapsed().as_secs_f64()
     };
-    let probe = 1 << 14;
-    let fits = effort.seconds / (draw(probe) / probe as f64);
-    let samples = effort.samples.min(fits as u64).max(probe);
+    let samples = effort.samples_for(&mut draw);
     let seconds = (0..effort.runs)
         .map(|_| draw(samples))
         .fold(f64::INFINITY, f64::min);

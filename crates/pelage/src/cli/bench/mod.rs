@@ -19,8 +19,7 @@ use std::process::ExitCode;
 /// Measures, prints the tables and writes what was asked for.
 pub fn run(args: &BenchArgs, say: &Say) -> Result<ExitCode> {
     let results = sampling::run(args.quick, say);
-    let tables = results.tables();
-    say.line(tables.trim_end());
+    say.line(results.tables().trim_end());
     if let Some(path) = &args.json {
         let mut text = serde_json::to_string_pretty(&results.rows())?;
         text.push('\n');
@@ -29,7 +28,7 @@ pub fn run(args: &BenchArgs, say: &Say) -> Result<ExitCode> {
     if let Some(folder) = &args.output {
         std::fs::create_dir_all(folder)
             .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-        write(&folder.join("sampling-tables.md"), &tables)?;
+        write(&folder.join("sampling.md"), &results.page())?;
         for (name, plot) in results.plots()? {
             write(&folder.join(name), &plot)?;
         }

@@ -52,15 +52,13 @@ fn sky_weights(map: &Map) -> Vec<f64> {
 }
 
 fn rate(effort: Effort, pick: impl Fn(u64) -> usize) -> f64 {
-    let run = |count: u64| {
+    let mut run = |count: u64| {
         let started = Instant::now();
         let sum = (0..count).fold(0, |sum: usize, i| sum.wrapping_add(pick(hash(i))));
         black_box(sum);
         started.elapsed().as_secs_f64()
     };
-    let probe = 1 << 14;
-    let fits = effort.seconds / (run(probe) / probe as f64);
-    let count = effort.samples.min(fits as u64).max(probe);
+    let count = effort.samples_for(&mut run);
     let seconds = (0..effort.runs)
         .map(|_| run(count))
         .fold(f64::INFINITY, f64::min);

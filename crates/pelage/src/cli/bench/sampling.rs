@@ -14,6 +14,17 @@ use std::fmt::Write;
 /// Texels along a side of the maps, unless a table is about that.
 const MAP_SIZE: u32 = 1024;
 
+/// What the methods and maps of the page are.
+const PREFACE: &str = "
+The methods draw the same number of roots (triangle and barycentrics, written to memory)
+by the index of the hair. `guided` is `RootSampler::fill`; `bisection` and `alias` take
+the same pieces and numbers one hair after the other; `rejection` picks a triangle by area
+and weighs a coin by the map, as document 004 compares (section 4.1). The best of three
+runs counts. `sun` is a sky with a disc of a few texels, 10^6 times as bright; `embers` has
+texels whose brightness has no scale. Maps have 1024² texels where nothing else is said.
+Compare within a row: a machine that others share changes its speed from row to row.
+";
+
 /// Everything that was measured.
 pub struct Results {
     /// Surfaces by maps by methods, one thread.
@@ -38,7 +49,7 @@ pub fn run(quick: bool, say: &Say) -> Results {
         },
         false => Effort {
             samples: 10_000_000,
-            seconds: 2.0,
+            seconds: 0.4,
             runs: 3,
         },
     };
@@ -117,6 +128,18 @@ impl Results {
             .collect()
     }
 
+    /// The tables and plots as Markdown, with what they are.
+    pub fn page(&self) -> String {
+        let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+        let version = env!("CARGO_PKG_VERSION");
+        format!(
+            "# Sampling\n\nMade by `pelage bench sampling -o docs/results --json \
+            docs/results/sampling.json`, version {version}, {cores} cores.\n{PREFACE}\n{}\n\
+            ![Rates by map](sampling-rates.svg)\n\n![Rates by grid](sampling-grid.svg)\n",
+            self.tables()
+        )
+    }
+
     /// The tables as Markdown, each below its heading.
     pub fn tables(&self) -> String {
         let mut text = String::new();
@@ -127,7 +150,10 @@ impl Results {
 
     fn write_tables(&self, text: &mut String) -> std::fmt::Result {
         writeln!(text, "## Rates, million samples a second, one thread\n")?;
-        self.by_method(text, |row| format!("{:.2}", row.rate()))?;
+        self.by_method(text, |row| match row.rate() {
+            rate if rate < 0.01 => format!("{rate:.0e}"),
+            rate => format!("{rate:.2}"),
+        })?;
         writeln!(text, "\n## Preprocessing, milliseconds, one thread\n")?;
         self.by_method(text, |row| format!("{:.0}", row.preprocess_seconds * 1e3))?;
         writeln!(text, "\n## Memory, MB\n")?;
