@@ -105,6 +105,13 @@ impl Plan {
         capture
             .roots
             .extend(hairs.map(|(&hair, &place)| root(hair, place, &self.rest, &self.groups)));
+        // By itself, so that the loads of many triangles overlap.
+        let frames = capture
+            .roots
+            .iter()
+            .map(|root| self.rest.frame(&root.place));
+        capture.frames.clear();
+        capture.frames.extend(frames);
         capture.dropped = Dropped::default();
         let started = clock.stop(Stage::Roots, started);
         self.weigh(capture);
@@ -119,7 +126,6 @@ impl Plan {
     /// Finds guides, weights and scale, and drops hairs that have no length.
     fn weigh(&self, capture: &mut Capture) {
         capture.scale.clear();
-        capture.frames.clear();
         capture.shares.clear();
         capture.share_starts.clear();
         capture.share_starts.push(0);
@@ -145,7 +151,7 @@ impl Plan {
                 }
                 _ => inverse_distance(&capture.near, self.wanted, &mut capture.weights),
             }
-            let frame = self.rest.frame(&root.place);
+            let frame = capture.frames[i];
             let first = capture.shares.len();
             let mut length = 0.0;
             for (near, &weight) in capture.near.iter().zip(&capture.weights) {
@@ -169,12 +175,13 @@ impl Plan {
                 continue;
             }
             capture.roots[kept] = root;
+            capture.frames[kept] = frame;
             kept += 1;
             capture.scale.push(factor);
-            capture.frames.push(frame);
             capture.share_starts.push(capture.shares.len() as u32);
         }
         capture.roots.truncate(kept);
+        capture.frames.truncate(kept);
     }
 
     fn look(&self, root: &Root) -> Look {
