@@ -93,6 +93,15 @@ impl Distribution {
         }
     }
 
+    /// The element in whose share `fraction` falls; where its share begins, and its width,
+    /// both of 2^64. The last fraction of all, 2^64 - 1, may be in no share.
+    #[inline(always)]
+    pub(crate) fn share_around(&self, fraction: u64) -> (usize, (u64, u64)) {
+        let index = self.find(fraction);
+        let (start, end) = (self.starts[index], self.starts[index + 1]);
+        (index, (start, end - start))
+    }
+
     /// Index of the last start at or below `fraction`. A cell holds one start on the
     /// mean, so the next two are looked at without a branch that could be guessed
     /// wrong; what is left to bisect is rare for any weights.

@@ -1,6 +1,7 @@
 //! Surfaces that grow hair: triangle meshes at rest and posed, image maps, places
 //! on a surface, and roots sampled by density.
 
+mod blue_noise;
 mod bulk;
 mod closest;
 mod distribution;
@@ -12,6 +13,7 @@ mod image_map;
 mod mesh;
 mod normals;
 mod pieces;
+pub mod quality;
 mod sampler;
 mod sequence;
 mod subdivide;
@@ -19,6 +21,7 @@ mod tangents;
 mod triangulate;
 mod voxels;
 
+pub use blue_noise::BlueNoise;
 pub use closest::ClosestPoint;
 pub use distribution::{Distribution, Pick};
 pub use frame::{RootFrame, SurfacePoint};

@@ -18,6 +18,7 @@ pub struct RootSampler {
     distribution: Distribution,
     pieces: Pieces,
     sequence: RootSequence,
+    seed: u64,
 }
 
 impl RootSampler {
@@ -30,6 +31,7 @@ impl RootSampler {
             distribution: Distribution::new(&weights)?,
             pieces: Pieces::new(&found, mesh.triangles().len() as u32)?,
             sequence: RootSequence::new(seed),
+            seed,
         })
     }
 
@@ -119,6 +121,10 @@ impl RootSampler {
 
     pub(crate) fn distribution(&self) -> &Distribution {
         &self.distribution
+    }
+
+    pub(crate) fn seed(&self) -> u64 {
+        self.seed
     }
 
     pub(crate) fn sequence(&self) -> &RootSequence {
