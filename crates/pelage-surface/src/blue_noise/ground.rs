@@ -10,6 +10,7 @@
 use super::hierarchy::Bounds;
 use crate::subdivide::Part;
 use crate::{Mesh, RootSampler};
+use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec3;
 use rayon::prelude::*;
 
@@ -135,7 +136,11 @@ impl<'a> Ground<'a> {
         let row = |row: &[u64]| {
             let mut places = Places::new();
             let last = row.len() - 1;
-            self.places(&Fractions::new(|lane| row[lane.min(last)]), &mut places);
+            let fractions = Fractions::new(|lane| row[lane.min(last)]);
+            dispatch!(Level::new(), simd => {
+                let _ = simd;
+                self.places(&fractions, &mut places)
+            });
             let found = |(lane, &x): (usize, &u64)| found(&places, lane, x);
             row.iter().enumerate().map(found).collect()
         };
