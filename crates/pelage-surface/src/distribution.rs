@@ -152,12 +152,23 @@ impl Tables<'_> {
     /// The element, how far into its share the fraction fell, and the width of the share.
     /// Those two are cut to 31 bits, so that processors turn many into floats at once;
     /// the width is at least 1.
+    #[inline(always)]
+    pub(crate) fn locate(self, fraction: u64) -> (usize, [i32; 2]) {
+        let (index, (start, width)) = self.share_around(fraction);
+        let width = width.max(1);
+        let cut = 33u32.saturating_sub(width.leading_zeros());
+        let inside = (fraction - start) >> cut;
+        (index, [inside as i32, (width >> cut) as i32])
+    }
+
+    /// The element in whose share `fraction` falls; where its share begins, and its width,
+    /// both of 2^64. The last fraction of all, 2^64 - 1, may be in no share.
     ///
     /// A cell of the grid holds one start on the mean, so the next two are looked at
     /// without a branch that could be guessed wrong; what is left to bisect is rare for
     /// any weights.
     #[inline(always)]
-    pub(crate) fn locate(self, fraction: u64) -> (usize, [i32; 2]) {
+    pub(crate) fn share_around(self, fraction: u64) -> (usize, (u64, u64)) {
         let cell = (fraction >> self.shift) as usize;
         let first = self.grid[cell] as usize;
         let near = &self.starts[first..first + 4];
@@ -167,10 +178,7 @@ impl Tables<'_> {
             index = self.bisect(first, self.grid[cell + 1] as usize, fraction);
             (start, end) = (self.starts[index], self.starts[index + 1]);
         }
-        let width = (end - start).max(1);
-        let cut = 33u32.saturating_sub(width.leading_zeros());
-        let inside = (fraction - start) >> cut;
-        (index, [inside as i32, (width >> cut) as i32])
+        (index, (start, end - start))
     }
 
     #[cold]

@@ -1,6 +1,7 @@
 //! Surfaces that grow hair: triangle meshes at rest and posed, image maps, places
 //! on a surface, and roots sampled by density.
 
+mod blue_noise;
 mod bulk;
 mod closest;
 mod distribution;
@@ -13,6 +14,7 @@ mod mesh;
 mod normals;
 mod pdf;
 mod pieces;
+pub mod quality;
 mod sampler;
 mod sequence;
 mod subdivide;
@@ -20,6 +22,7 @@ mod tangents;
 mod triangulate;
 mod voxels;
 
+pub use blue_noise::BlueNoise;
 pub use closest::ClosestPoint;
 pub use distribution::{Distribution, Pick};
 pub use frame::{RootFrame, SurfacePoint};

@@ -149,6 +149,11 @@ impl RootSampler {
         &self.distribution
     }
 
+    /// The seed of the roots.
+    pub(crate) fn seed(&self) -> u64 {
+        self.seed
+    }
+
     /// The two numbers of each hair.
     pub fn sequence(&self) -> &RootSequence {
         &self.sequence

@@ -281,7 +281,7 @@ fn sobol_second(mut x: u32) -> u32 {
 /// A 32-bit hash: Wellons' search of 2018, bias 0.17. Every input bit moves every
 /// output bit.
 #[inline(always)]
-fn mix(mut x: u32) -> u32 {
+pub(crate) fn mix(mut x: u32) -> u32 {
     x = (x ^ x >> 16).wrapping_mul(0x7feb_352d);
     x = (x ^ x >> 15).wrapping_mul(0x846c_a68b);
     x ^ x >> 16

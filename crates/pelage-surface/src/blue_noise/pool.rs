@@ -1,0 +1,252 @@
+//! The candidates of a stage: one at random in each of many equal parts of the mass.
+
+use super::cluster::{Cluster, Near, TAKEN};
+use super::ground::{Fractions, Ground, LANES, Milestone, Places, Site};
+use super::hierarchy::{Bounds, Hierarchy};
+use crate::hash;
+use crate::sequence::mix;
+use fearless_simd::{Level, dispatch};
+use pelage_curves::Vec3;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Candidates for each root that a stage wants. More of them leave smaller gaps: with 16
+/// the smallest distance is 4 percent larger, at half as much time again.
+const CANDIDATES: u64 = 8;
+
+/// Candidates over which the density is averaged on rough ground: the share of one
+/// root. So the roots follow what a map means where it changes from texel to texel,
+/// faster than they can.
+const SMOOTHED: u64 = 8;
+
+/// Candidates drawn by one task, as many as a chunk of clusters comes from.
+const CHUNK: u64 = 64 * LANES as u64;
+
+/// Roots in a leaf of their hierarchy.
+const LEAF: usize = 8;
+
+/// Clusters drawn together, to look for the roots around them once.
+const ROWS: usize = 4;
+
+/// Candidates of so many clusters.
+const BLOCK: u64 = (ROWS * LANES) as u64;
+
+/// Clusters found by one task, and what is known of their candidates.
+#[derive(Default)]
+pub(crate) struct Found {
+    pub clusters: Vec<Cluster>,
+    pub near: Vec<Near>,
+}
+
+pub(crate) struct Pool<'a> {
+    ground: &'a Ground<'a>,
+    /// Mass of a candidate's part, of 2^64.
+    step: u64,
+    count: u64,
+    key: u32,
+    /// Of the candidates averaged over; 0 where the ground is not rough.
+    closeness: Vec<f32>,
+}
+
+impl<'a> Pool<'a> {
+    /// Candidates for `roots` roots.
+    pub(crate) fn new(ground: &'a Ground<'a>, roots: u64, seed: u64) -> Self {
+        let count = (roots * CANDIDATES).next_multiple_of(BLOCK);
+        let step = ((1u128 << 64) / count as u128) as u64;
+        let parts = count / SMOOTHED;
+        let milestones: Vec<Milestone> = (0..=parts)
+            .into_par_iter()
+            .map(|k| ground.milestone((k * SMOOTHED).saturating_mul(step).min(u64::MAX - 1)))
+            .collect();
+        let mass = 1.0 / parts as f64;
+        let average = |pair: &[Milestone]| pair[0].rough(&pair[1], mass).unwrap_or(0.0);
+        let closeness = milestones.par_windows(2).map(average).collect();
+        Self {
+            ground,
+            step,
+            count,
+            key: hash(seed ^ hash(count)) as u32,
+            closeness,
+        }
+    }
+
+    /// The fraction of the mass that candidate `number` is at.
+    #[inline(always)]
+    fn fraction(&self, number: u64) -> u64 {
+        let at_random = mix(number as u32 ^ mix((number >> 32) as u32 ^ self.key)) as u64;
+        let (high, low) = (self.step >> 32, self.step & 0xffff_ffff);
+        number * self.step + high * at_random + ((low * at_random) >> 32)
+    }
+
+    /// The fractions of all candidates in `numbers`.
+    pub(crate) fn fractions(&self, numbers: &[u64]) -> Vec<u64> {
+        numbers
+            .iter()
+            .map(|&number| self.fraction(number))
+            .collect()
+    }
+
+    #[inline(always)]
+    fn draw(&self, first: u64, chunk: u64, places: &mut Places) -> Cluster {
+        let number = |lane: usize| first + lane as u64;
+        let fractions = Fractions::new(|lane| self.fraction(number(lane)));
+        self.ground.places(&fractions, places);
+        for lane in 0..LANES {
+            let average = self.closeness[(number(lane) / SMOOTHED) as usize];
+            let own = places.closeness[lane];
+            places.closeness[lane] = if average > 0.0 { average } else { own };
+        }
+        let mut drawn = Cluster::new(chunk);
+        drawn.draw(places, (first - chunk) as u16, self.ground);
+        drawn
+    }
+
+    /// The roots at the fractions `roots`, ascending.
+    fn sites(&self, roots: &[u64]) -> Vec<Site> {
+        let rows = self.ground.rows(roots, |places, lane, x| {
+            let part = ((x / self.step / SMOOTHED) as usize).min(self.closeness.len() - 1);
+            let average = self.closeness[part];
+            let own = places.closeness[lane];
+            Site {
+                position: Vec3::new(places.x[lane], places.y[lane], places.z[lane]),
+                closeness: if average > 0.0 { average } else { own },
+                normal: self.ground.normals()[places.triangle[lane] as usize],
+            }
+        });
+        rows.concat()
+    }
+
+    /// Clusters, along the curve, of the candidates that are `floor` (squared) away from
+    /// all `roots`, with their distances from the nearest of those within `reach`.
+    pub(crate) fn clusters(&self, roots: &[u64], reach: f32, floor: f32) -> Vec<Found> {
+        let taken = Taken::new(self.sites(roots));
+        (0..self.count.div_ceil(CHUNK))
+            .into_par_iter()
+            .map(|chunk| {
+                let numbers = chunk * CHUNK..((chunk + 1) * CHUNK).min(self.count);
+                let mut found = Found::default();
+                dispatch!(Level::new(), simd => {
+                    let _ = simd;
+                    self.chunk(numbers, &taken, reach, floor, &mut found)
+                });
+                found
+            })
+            .collect()
+    }
+
+    #[inline(always)]
+    fn chunk(&self, numbers: Range<u64>, taken: &Taken, reach: f32, floor: f32, found: &mut Found) {
+        let chunk = numbers.start;
+        let mut kept = Keeper::new(chunk);
+        let mut leaves = Vec::new();
+        let mut places = Places::new();
+        for first in numbers.step_by(BLOCK as usize) {
+            let mut drawn = [const { Cluster::new(0) }; ROWS];
+            let mut bounds = Bounds::EMPTY;
+            for (row, drawn) in drawn.iter_mut().enumerate() {
+                *drawn = self.draw(first + (row * LANES) as u64, chunk, &mut places);
+                bounds = bounds.and(&drawn.bounds);
+            }
+            taken.leaves(&bounds, reach, &mut leaves);
+            for drawn in &drawn {
+                let near = taken.distances(&leaves, drawn, reach, self.ground);
+                kept.keep(drawn, &near, floor, self.ground, found);
+            }
+        }
+        kept.flush(self.ground, found);
+    }
+}
+
+/// Gathers candidates until they fill a cluster.
+struct Keeper {
+    cluster: Cluster,
+    near: Near,
+    len: usize,
+}
+
+impl Keeper {
+    fn new(first: u64) -> Self {
+        Self {
+            cluster: Cluster::new(first),
+            near: Near::all(TAKEN),
+            len: 0,
+        }
+    }
+
+    #[inline(always)]
+    fn keep(
+        &mut self,
+        drawn: &Cluster,
+        near: &Near,
+        floor: f32,
+        ground: &Ground,
+        found: &mut Found,
+    ) {
+        // Which are kept is as good as random: without branches.
+        let (mut lanes, mut count) = ([0u8; LANES], 0);
+        for lane in 0..LANES {
+            lanes[count] = lane as u8;
+            count += (near.distance[lane] >= floor) as usize;
+        }
+        for &lane in &lanes[..count] {
+            self.cluster.copy(self.len, drawn, lane as usize);
+            self.near.distance[self.len] = near.distance[lane as usize];
+            self.len += 1;
+            if self.len == LANES {
+                self.flush(ground, found);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn flush(&mut self, ground: &Ground, found: &mut Found) {
+        if self.len > 0 {
+            self.cluster.close(self.len, ground);
+            found.clusters.push(self.cluster.clone());
+            found.near.push(self.near);
+            (self.near, self.len) = (Near::all(TAKEN), 0);
+        }
+    }
+}
+
+/// The roots of earlier stages.
+struct Taken {
+    sites: Vec<Site>,
+    tree: Hierarchy,
+}
+
+impl Taken {
+    fn new(sites: Vec<Site>) -> Self {
+        let leaf = |leaf: &[Site]| {
+            let bounds = leaf.iter().map(Site::bounds);
+            bounds.fold(Bounds::EMPTY, |a, b| a.and(&b))
+        };
+        Self {
+            tree: Hierarchy::new(sites.chunks(LEAF).map(leaf)),
+            sites,
+        }
+    }
+
+    #[inline(always)]
+    fn leaves(&self, bounds: &Bounds, reach: f32, leaves: &mut Vec<usize>) {
+        leaves.clear();
+        self.tree.near(bounds, reach, |leaf| leaves.push(leaf));
+    }
+
+    #[inline(always)]
+    fn distances(&self, leaves: &[usize], cluster: &Cluster, reach: f32, ground: &Ground) -> Near {
+        let mut near = Near::all(f32::INFINITY);
+        for &leaf in leaves {
+            if self.tree.leaf(leaf).gap(&cluster.bounds) >= reach {
+                continue;
+            }
+            let end = ((leaf + 1) * LEAF).min(self.sites.len());
+            for site in &self.sites[leaf * LEAF..end] {
+                if site.bounds().gap(&cluster.bounds) < reach {
+                    cluster.push(&mut near, site, ground.normals());
+                }
+            }
+        }
+        near
+    }
+}
