@@ -2,8 +2,9 @@
 //! its positions in columns.
 
 use crate::columns::{Column, Ends, Field};
-use crate::drawable::{drawable, refused};
+use crate::drawable::{checked, drawable, refused};
 use pelage_strands::{Bounds, StrandBuffer, StreamInfo};
+use std::borrow::Cow;
 use std::io;
 
 /// Counts of one frame; equal for every frame of a stream.
@@ -95,7 +96,11 @@ impl Recorder {
         strands: &StrandBuffer,
         points: impl FnOnce(&[u8]) -> io::Result<()>,
     ) -> io::Result<()> {
-        let strands = &*drawable(strands)?;
+        let strands = &*match self.ends {
+            // Plain arrays may hold what no renderer would draw: roots without hair.
+            Ends::Real => Cow::Borrowed(checked(strands)?),
+            Ends::Doubled => drawable(strands)?,
+        };
         let Some(now) = &mut self.now else {
             return Err(refused("strands came outside a frame"));
         };
