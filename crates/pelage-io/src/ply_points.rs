@@ -32,7 +32,7 @@ file_sink! {
     PlyRootsWriter, PlyPoints
 }
 
-/// Name and type of each property, in the order of a [`Row`]'s bytes.
+/// Name and type of each property, in the order of [`row`]'s bytes.
 const PROPERTIES: [(&str, &str); 17] = [
     ("float", "x"),
     ("float", "y"),
