@@ -1,20 +1,15 @@
 //! Running a plan: chunks made by several threads, handed to a sink in order.
-//!
-//! Memory is the plan, a fixed number of chunks and their scratch, whatever the number
-//! of hairs. The threads draw chunk numbers in order and only when they hold an empty
-//! buffer, so the chunk that the sink waits for always has one and nothing can lock up.
 
 use crate::capture::{Capture, Dropped};
 use crate::clock::{Clock, Stage};
 use crate::evaluate::Scratch;
+use crate::in_order::in_order;
 use crate::plan::Plan;
 use pelage_strands::{Amount, Sink, SinkError, StrandBuffer, StreamInfo};
 use pelage_surface::Mesh;
-use std::collections::BTreeMap;
 use std::error::Error;
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, mpsc};
+use std::sync::Arc;
 
 /// Most hairs in a chunk: its arrays (some 300 KB at six vertices a hair) stay in a
 /// core's second-level cache. Fewer cost more hand-overs, more fall out of the cache.
@@ -111,11 +106,7 @@ pub fn generate(
                 ..Report::default()
             },
         };
-        if request.threads <= 1 {
-            run.alone(sink, progress)?;
-        } else {
-            run.together(request.threads, sink, progress)?;
-        }
+        run.run(request.threads, sink, progress)?;
         report = run.report;
         sink.end_frame()?;
     }
@@ -179,82 +170,21 @@ impl Run<'_> {
         start..(start + each).min(hairs.end)
     }
 
-    fn alone(
-        &mut self,
-        sink: &mut dyn Sink,
-        progress: &mut dyn FnMut(u64) -> bool,
-    ) -> Result<(), GenerateError> {
-        let (mut worker, mut chunk) = (Worker::default(), Chunk::default());
-        for number in 0..self.chunks() {
-            let hairs = Self::hairs_of(&self.hairs, self.chunk, number);
-            worker.make(self.plan, hairs, self.pose, &mut chunk);
-            self.take(number, &chunk, sink, progress)?;
-        }
-        Ok(())
-    }
-
-    fn together(
+    fn run(
         &mut self,
         threads: usize,
         sink: &mut dyn Sink,
         progress: &mut dyn FnMut(u64) -> bool,
     ) -> Result<(), GenerateError> {
-        let (plan, pose, hairs) = (self.plan, self.pose, self.hairs.clone());
-        let (each, chunks) = (self.chunk, self.chunks());
-        let next = AtomicU64::new(0);
-        let (give_empty, take_empty) = mpsc::channel::<Chunk>();
-        let (give_full, take_full) = mpsc::channel::<(u64, Chunk)>();
-        // One chunk a thread in the making and one waiting for the sink.
-        for _ in 0..2 * threads {
-            // The receiver lives until the end of this function.
-            let _ = give_empty.send(Chunk::default());
-        }
-        let take_empty = Mutex::new(take_empty);
-        std::thread::scope(|scope| {
-            for _ in 0..threads {
-                let give_full = give_full.clone();
-                let (next, take_empty, hairs) = (&next, &take_empty, &hairs);
-                scope.spawn(move || {
-                    let mut worker = Worker::default();
-                    loop {
-                        // A poisoned lock means that another thread panicked; stop too.
-                        let Ok(waiting) = take_empty.lock() else {
-                            return;
-                        };
-                        let Ok(mut chunk) = waiting.recv() else {
-                            return;
-                        };
-                        let number = next.fetch_add(1, Ordering::Relaxed);
-                        drop(waiting);
-                        if number >= chunks {
-                            return;
-                        }
-                        worker.make(plan, Self::hairs_of(hairs, each, number), pose, &mut chunk);
-                        if give_full.send((number, chunk)).is_err() {
-                            return;
-                        }
-                    }
-                });
-            }
-            drop(give_full);
-            // Dropping `give_empty` and `take_full` on the way out, in success or
-            // failure, is what ends the threads.
-            let (give_empty, take_full) = (give_empty, take_full);
-            let mut early = BTreeMap::new();
-            let mut wanted = 0;
-            while wanted < chunks {
-                let Ok((number, chunk)) = take_full.recv() else {
-                    break;
-                };
-                early.insert(number, chunk);
-                while let Some(chunk) = early.remove(&wanted) {
-                    self.take(wanted, &chunk, sink, progress)?;
-                    wanted += 1;
-                    let _ = give_empty.send(chunk);
-                }
-            }
-            Ok(())
-        })
+        let (plan, pose, hairs, each) = (self.plan, self.pose, self.hairs.clone(), self.chunk);
+        in_order(
+            self.chunks(),
+            threads,
+            |worker: &mut Worker, number, chunk: &mut Chunk| {
+                worker.make(plan, Self::hairs_of(&hairs, each, number), pose, chunk);
+            },
+            |number, chunk| self.take(number, chunk, sink, progress),
+        )
     }
 
     fn take(

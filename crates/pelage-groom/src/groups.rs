@@ -87,6 +87,14 @@ impl Groups {
         Ok(Self::listed(map, wrap, &listed))
     }
 
+    /// The same groups, each of `segments`; at least 1.
+    pub fn with_segments(mut self, segments: u32) -> Self {
+        for group in &mut self.groups {
+            group.segments = segments.max(1);
+        }
+        self
+    }
+
     /// All groups.
     pub fn all(&self) -> &[Group] {
         &self.groups

@@ -18,11 +18,13 @@ mod groups;
 mod grow;
 mod guide;
 mod guide_set;
+mod in_order;
 mod locator;
 mod maps;
 mod plan;
 pub mod random;
 pub mod recipe;
+mod root_plan;
 pub mod stages;
 
 pub use capture::{Capture, Dropped};
@@ -36,3 +38,4 @@ pub use guide::{FarGuide, Guide};
 pub use locator::{Locator, Near};
 pub use maps::{ColorField, Images, ScalarField};
 pub use plan::Plan;
+pub use root_plan::{RootPlan, write_roots};

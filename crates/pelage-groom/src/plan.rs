@@ -7,8 +7,8 @@ use crate::guide::{self, Guide};
 use crate::guide_set::GuideSet;
 use crate::maps::{ColorField, FieldMaker, ScalarField};
 use crate::recipe::{self, GuideSource, Method, Recipe, Segments};
-use crate::{PlanError, grow};
-use pelage_surface::{Density, Mesh, RootSampler, VoxelRoots, Wrap};
+use crate::{PlanError, RootPlan, grow};
+use pelage_surface::{Density, Mesh, PolygonMesh, RootSampler, VoxelRoots, Wrap};
 
 /// A groom compiled: everything that can fail has.
 #[derive(Clone, Debug)]
@@ -42,16 +42,16 @@ impl Plan {
     /// Compiles a groom. Every error a user can make in it ends here.
     pub fn new(groom: Groom) -> Result<Self, PlanError> {
         let recipe = &groom.recipe;
-        let mut polygons = groom.mesh;
-        if !groom.keep_file_normals {
-            polygons.corner_normals.clear();
-        }
-        let rest = Mesh::new(polygons)?;
-        if rest.degenerate_triangles() == rest.triangles().len() {
-            return Err(PlanError::NoSurface);
-        }
+        let rest = rest(groom.mesh, groom.keep_file_normals)?;
         let mut maker = FieldMaker::new(&groom.images, rest.has_uvs());
-        let sampler = sampler(recipe, &rest, &mut maker)?;
+        let roots = RootPlan::on(rest, recipe, &mut maker)?;
+        let (count, notes) = (roots.count(), roots.notes().to_vec());
+        let RootPlan {
+            rest,
+            sampler,
+            mut groups,
+            ..
+        } = roots;
         let fields = Fields::new(recipe, &mut maker)?;
         let all = match (&sampler, recipe.guides.source()) {
             (_, Some(GuideSource::Curves(_))) => {
@@ -62,22 +62,24 @@ impl Plan {
             }
             _ => Vec::new(),
         };
+        if recipe.groups.segments.is_none() {
+            groups = groups.with_segments(most_segments(&all));
+        }
         let mut plan = Self {
-            groups: refuse_too_long(groups(recipe, &maker, &all)?)?,
+            groups: refuse_too_long(groups)?,
             guides: Vec::new(),
             method: recipe.interpolation.method,
             wanted: recipe.interpolation.guides as usize,
             fields,
             seed: recipe.hair.seed,
             normals: recipe.output.normals,
-            count: recipe.hair.count,
+            count,
             guide_count: all.len(),
-            notes: Vec::new(),
+            notes,
             rest,
             sampler,
         };
         plan.share_out(&all)?;
-        plan.note();
         Ok(plan)
     }
 
@@ -120,18 +122,6 @@ impl Plan {
         }
     }
 
-    fn note(&mut self) {
-        let degenerate = self.rest.degenerate_triangles();
-        if degenerate > 0 {
-            self.notes
-                .push(format!("{degenerate} degenerate triangles grow no hair"));
-        }
-        if self.sampler.is_none() {
-            self.notes
-                .push("roots.density is 0 on the whole surface: no hair can grow".into());
-        }
-    }
-
     /// Things worth telling that are no errors, in plain words.
     pub fn notes(&self) -> &[String] {
         &self.notes
@@ -139,11 +129,7 @@ impl Plan {
 
     /// Hairs the recipe asks for; 0 where no hair can grow.
     pub fn count(&self) -> u64 {
-        if self.sampler.is_some() {
-            self.count
-        } else {
-            0
-        }
+        self.count
     }
 
     /// The surface at rest.
@@ -208,12 +194,24 @@ impl Fields {
     }
 }
 
-fn sampler(
-    recipe: &Recipe,
+/// The mesh at rest, ready to grow hair.
+pub(crate) fn rest(mut polygons: PolygonMesh, keep_file_normals: bool) -> Result<Mesh, PlanError> {
+    if !keep_file_normals {
+        polygons.corner_normals.clear();
+    }
+    let rest = Mesh::new(polygons)?;
+    if rest.degenerate_triangles() == rest.triangles().len() {
+        return Err(PlanError::NoSurface);
+    }
+    Ok(rest)
+}
+
+/// Draws roots on `rest` by `density`; `None` where no hair can grow.
+pub(crate) fn sampler(
+    density: &ScalarField,
     rest: &Mesh,
-    maker: &mut FieldMaker,
+    seed: u64,
 ) -> Result<Option<RootSampler>, PlanError> {
-    let density = maker.scalar("roots.density", &recipe.roots.density)?;
     let (value, map) = density.parts();
     if let Some((map, _)) = map {
         refuse_negative(map)?;
@@ -222,7 +220,7 @@ fn sampler(
         value,
         map: map.map(|(map, wrap)| (map, 0, wrap)),
     };
-    Ok(RootSampler::new(rest, &density, recipe.hair.seed))
+    Ok(RootSampler::new(rest, &density, seed))
 }
 
 fn refuse_negative(map: &pelage_surface::ImageMap) -> Result<(), PlanError> {
@@ -258,18 +256,18 @@ fn tolerance(recipe: &Recipe, rest: &Mesh) -> f32 {
         .unwrap_or_else(|| low.distance(high) * 0.01)
 }
 
-/// Groups and their segments; where the recipe gives no number, a group's hairs get as
-/// many segments as its guide with the most.
-fn groups(recipe: &Recipe, maker: &FieldMaker, guides: &[Guide]) -> Result<Groups, PlanError> {
-    let most = guides
-        .iter()
-        .map(|g| g.local.len().saturating_sub(1))
-        .max()
-        .unwrap_or(1) as u32;
+/// Segments of the guide with the most.
+fn most_segments(guides: &[Guide]) -> u32 {
+    let segments = guides.iter().map(|g| g.local.len().saturating_sub(1));
+    segments.max().unwrap_or(1) as u32
+}
+
+/// Groups and their segments, 1 where the recipe leaves them to the guides.
+pub(crate) fn groups(recipe: &Recipe, maker: &FieldMaker) -> Result<Groups, PlanError> {
     let Some(used) = &recipe.groups.map else {
         return Ok(Groups::single(match recipe.groups.segments {
             Some(Segments::All(n)) => n,
-            _ => most,
+            _ => 1,
         }));
     };
     let map = maker.image("groups.map", used)?;
@@ -279,6 +277,6 @@ fn groups(recipe: &Recipe, maker: &FieldMaker, guides: &[Guide]) -> Result<Group
             Ok(Groups::listed(&map, Wrap::Repeat, &listed))
         }
         Some(Segments::All(n)) => Groups::found(&map, Wrap::Repeat, *n),
-        None => Groups::found(&map, Wrap::Repeat, most),
+        None => Groups::found(&map, Wrap::Repeat, 1),
     }
 }

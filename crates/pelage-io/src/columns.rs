@@ -234,7 +234,8 @@ impl Column {
         self.spool.place(target, start);
     }
 
-    /// Adds the field's entries of `strands`, none of which is without vertices.
+    /// Adds the field's entries of `strands`, none of which is without vertices where
+    /// ends are doubled.
     pub(crate) fn take(
         &mut self,
         strands: &StrandBuffer,

@@ -3,7 +3,7 @@
 //! A buffer's arrays are public and may disagree; and a curve of one vertex, which
 //! no generator should make, brings readers down (Blender 5.0 crashes on cubic
 //! curves of fewer than four control vertices). Writers look at chunks only
-//! through [`drawable`].
+//! through [`drawable`], or [`checked`] where their files hold plain arrays.
 
 use pelage_strands::StrandBuffer;
 use std::borrow::Cow;
@@ -15,12 +15,18 @@ use std::io;
 /// Fails where offsets do not ascend from 0 to the number of points, or an array is
 /// neither empty nor of its domain's length.
 pub(crate) fn drawable(strands: &StrandBuffer) -> io::Result<Cow<'_, StrandBuffer>> {
-    check_offsets(strands)?;
-    check_lengths(strands)?;
+    checked(strands)?;
     if (0..strands.len()).all(|strand| strands.vertex_count(strand) >= 2) {
         return Ok(Cow::Borrowed(strands));
     }
     Ok(Cow::Owned(mended(strands)))
+}
+
+/// `strands` as they are, refused where [`drawable`] refuses them.
+pub(crate) fn checked(strands: &StrandBuffer) -> io::Result<&StrandBuffer> {
+    check_offsets(strands)?;
+    check_lengths(strands)?;
+    Ok(strands)
 }
 
 fn check_offsets(strands: &StrandBuffer) -> io::Result<()> {

@@ -2,7 +2,7 @@
 //! columns.
 
 use crate::columns::{Column, Ends};
-use crate::drawable::{drawable, refused};
+use crate::drawable::{checked, drawable, refused};
 use pelage_strands::{Amount, Bounds, StrandBuffer, StreamInfo};
 use std::borrow::Cow;
 use std::io;
@@ -97,7 +97,11 @@ impl Recorder {
         strands: &'a StrandBuffer,
         place: impl FnOnce(&mut [&mut Column], Option<Amount>),
     ) -> io::Result<Cow<'a, StrandBuffer>> {
-        let strands = drawable(strands)?;
+        let strands = match self.ends {
+            // Plain arrays may hold what no renderer would draw: roots without hair.
+            Ends::Real => Cow::Borrowed(checked(strands)?),
+            Ends::Doubled => drawable(strands)?,
+        };
         let is_start = self.count(&strands)?;
         if strands.is_empty() {
             return Ok(strands);

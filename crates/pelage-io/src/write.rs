@@ -1,6 +1,6 @@
 //! Which sink a file name asks for.
 
-use crate::{NpzWriter, RibWriter, UsdaWriter, UsdcWriter};
+use crate::{NpzWriter, PlyRootsWriter, RibWriter, UsdaWriter, UsdcWriter};
 use pelage_strands::{Null, Sink, SinkError};
 use std::path::Path;
 
@@ -24,6 +24,13 @@ pub const WRITABLE: [(&str, &str); 5] = [
     ("null", "nothing is written"),
 ];
 
+/// What each extension makes of roots, for messages and help texts.
+pub const ROOTS_WRITABLE: [(&str, &str); 3] = [
+    ("npz", "NumPy arrays"),
+    ("ply", "point cloud"),
+    ("null", "nothing is written"),
+];
+
 /// A sink into the file `path`, by its extension; the path `null` takes strands and
 /// forgets them.
 ///
@@ -39,25 +46,39 @@ pub fn sink_for(path: &Path, options: &WriteOptions) -> Result<Box<dyn Sink>, Si
     if path == Path::new("null") {
         return Ok(Box::new(Null));
     }
-    let extension = path
-        .extension()
-        .and_then(|extension| extension.to_str())
-        .map(str::to_ascii_lowercase);
-    Ok(match extension.as_deref() {
+    Ok(match extension(path).as_deref() {
         Some("usdc" | "usd") => Box::new(UsdcWriter::new(path, options)),
         Some("usda") => Box::new(UsdaWriter::new(path, options)),
         Some("npz") => Box::new(NpzWriter::new(path, options)),
         Some("rib") => Box::new(RibWriter::new(path, options)),
-        other => return Err(unknown(path, other)),
+        other => return Err(unknown(path, other, &WRITABLE)),
     })
 }
 
-fn unknown(path: &Path, extension: Option<&str>) -> SinkError {
+/// As [`sink_for`], of roots: strands of one vertex, with surface normals for curve
+/// normals.
+pub fn root_sink_for(path: &Path, options: &WriteOptions) -> Result<Box<dyn Sink>, SinkError> {
+    if path == Path::new("null") {
+        return Ok(Box::new(Null));
+    }
+    Ok(match extension(path).as_deref() {
+        Some("npz") => Box::new(NpzWriter::new(path, options)),
+        Some("ply") => Box::new(PlyRootsWriter::new(path, options)),
+        other => return Err(unknown(path, other, &ROOTS_WRITABLE)),
+    })
+}
+
+fn extension(path: &Path) -> Option<String> {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    extension.map(str::to_ascii_lowercase)
+}
+
+fn unknown(path: &Path, extension: Option<&str>, known: &[(&str, &str)]) -> SinkError {
     let found = match extension {
         Some(extension) => format!("no writer for .{extension}"),
         None => "its name has no extension".into(),
     };
-    let known: Vec<String> = WRITABLE
+    let known: Vec<String> = known
         .iter()
         .map(|(extension, what)| match *extension {
             "null" => format!("the name null ({what})"),
@@ -92,6 +113,12 @@ mod tests {
         for (extension, _) in WRITABLE {
             assert!(error.contains(extension), "{error}");
         }
+        let error = root_sink_for("a.usdc".as_ref(), &WriteOptions::default());
+        let error = error.err().unwrap().to_string();
+        assert!(
+            error.contains("known are .npz (NumPy arrays), .ply"),
+            "{error}"
+        );
         let error = sink("hair").err().unwrap().to_string();
         assert!(error.contains("no extension"), "{error}");
     }

@@ -94,6 +94,19 @@ fn attributes_that_strands_lack_are_left_out() {
 }
 
 #[test]
+fn roots_without_hair_are_strands_of_one_vertex() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.npz");
+    let mut roots = StrandBuffer::new();
+    (0..5).for_each(|i| support::push_strand(&mut roots, i, 1));
+    write_still(&path, &roots);
+    check(
+        "assert f['points'].shape == (5, 3) and f['counts'].tolist() == [1] * 5",
+        &path,
+    );
+}
+
+#[test]
 #[ignore = "writes 4.4 GB; run after changes to the archive"]
 fn arrays_past_4_gb_are_found_by_their_64_bit_sizes() {
     let folder = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).unwrap();

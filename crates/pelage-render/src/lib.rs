@@ -61,5 +61,5 @@ pub use lights::{Light, LightRig, Sky};
 pub use pelage_strands::UpAxis;
 pub use picture::Picture;
 pub use render::render;
-pub use scene::Scene;
+pub use scene::{Paint, Scene};
 pub use settings::{Fiber, Reflection, Settings, Shape};

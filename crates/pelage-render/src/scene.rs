@@ -2,7 +2,14 @@
 
 use crate::RenderError;
 use pelage_strands::{Bounds, StrandBuffer};
-use pelage_surface::{ImageMap, Mesh};
+use pelage_surface::{ImageMap, Mesh, SurfacePoint};
+use std::fmt::Debug;
+
+/// Colours of a surface, place by place: for what no image over its UVs can tell.
+pub trait Paint: Debug + Sync {
+    /// Linear RGB of the surface at `place`, 0..=1. It should depend on the place alone.
+    fn color(&self, place: &SurfacePoint) -> [f32; 3];
+}
 
 /// Strands and the surface they grow on, borrowed.
 #[derive(Clone, Debug)]
@@ -17,6 +24,8 @@ pub struct Scene<'a> {
     pub surface_color: [f32; 3],
     /// Linear RGB over the surface, repeating; needs a surface with UVs.
     pub surface_map: Option<&'a ImageMap>,
+    /// What colours the surface instead of `surface_color` and `surface_map`.
+    pub surface_paint: Option<&'a dyn Paint>,
 }
 
 impl<'a> Scene<'a> {
@@ -27,6 +36,7 @@ impl<'a> Scene<'a> {
             surface: None,
             surface_color: [0.22, 0.15, 0.12],
             surface_map: None,
+            surface_paint: None,
         }
     }
 
@@ -39,6 +49,12 @@ impl<'a> Scene<'a> {
     /// The same scene with colours over the surface.
     pub fn painted(mut self, map: &'a ImageMap) -> Self {
         self.surface_map = Some(map);
+        self
+    }
+
+    /// The same scene with its surface coloured by `paint`.
+    pub fn covered(mut self, paint: &'a dyn Paint) -> Self {
+        self.surface_paint = Some(paint);
         self
     }
 

@@ -1,12 +1,12 @@
 //! The surface under the hair, and light on anything flat.
 
-use crate::Scene;
 use crate::accel::{SurfaceHit, SurfaceTree};
 use crate::color::Rgb;
 use crate::light_field::Occluders;
 use crate::lights::Lighting;
 use crate::sampling::{in_cone, over_cosine, point};
 use crate::stage::Frame;
+use crate::{Paint, Scene};
 use glam::Vec3;
 use pelage_surface::{ImageMap, Mesh, SurfacePoint, Wrap};
 use rayon::prelude::*;
@@ -28,6 +28,7 @@ pub(crate) struct Skin<'a> {
     mesh: Option<&'a Mesh>,
     color: Rgb,
     map: Option<&'a ImageMap>,
+    paint: Option<&'a dyn Paint>,
     /// Triangles in the unit scene.
     pub corners: Vec<[Vec3; 3]>,
     /// Per vertex: mean of sky radiance over the hemisphere, weighted by cosine.
@@ -46,6 +47,7 @@ impl<'a> Skin<'a> {
             mesh,
             color: scene.surface_color.into(),
             map: scene.surface_map,
+            paint: scene.surface_paint,
             corners,
             sky: Vec::new(),
         }
@@ -126,18 +128,20 @@ impl<'a> Skin<'a> {
 
     /// What the surface reflects at `hit`.
     fn color(&self, hit: &SurfaceHit) -> Rgb {
-        let (Some(mesh), Some(map)) = (self.mesh.filter(|m| m.has_uvs()), self.map) else {
-            return self.color;
-        };
         let [v, w] = hit.weights;
         let place = SurfacePoint {
             triangle: hit.triangle,
             barycentric: [1.0 - v - w, v, w],
         };
-        let uv = mesh.uv(&place);
-        map.sample_rgb(uv.x, uv.y, Wrap::Repeat)
-            .map(|c| c.clamp(0.0, 1.0))
-            .into()
+        let color = match (self.paint, self.map, self.mesh.filter(|m| m.has_uvs())) {
+            (Some(paint), ..) => paint.color(&place),
+            (None, Some(map), Some(mesh)) => {
+                let uv = mesh.uv(&place);
+                map.sample_rgb(uv.x, uv.y, Wrap::Repeat)
+            }
+            _ => return self.color,
+        };
+        color.map(|c| c.clamp(0.0, 1.0)).into()
     }
 }
 

@@ -81,6 +81,13 @@ impl Mesh {
             .map_or(Vec2::ZERO, |uv| uv[0] * a + uv[1] * b + uv[2] * c)
     }
 
+    /// Unit normal at `point`: that of its frame.
+    #[inline]
+    pub fn normal(&self, point: &SurfacePoint) -> Vec3 {
+        let normal = weigh(self.normals()[point.triangle as usize], point.barycentric);
+        normal.try_normalize().unwrap_or(Vec3::Z)
+    }
+
     /// Position and frame at `point`.
     #[inline]
     pub fn frame(&self, point: &SurfacePoint) -> RootFrame {

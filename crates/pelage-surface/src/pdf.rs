@@ -49,6 +49,16 @@ impl<'a> RootPdf<'a> {
         }
     }
 
+    /// The piece of constant density that holds `place`, by its index along the
+    /// distribution, and the weights of the piece's corners there; `None` where no hair
+    /// grows.
+    pub fn piece_at(&self, place: &SurfacePoint) -> Option<(usize, [f32; 3])> {
+        let (index, part) = self.piece(place)?;
+        let [_, u, v] = place.barycentric;
+        let [p, q] = [(u, 0), (v, 1)].map(|(x, k)| (x - part.origin[k]) / part.size);
+        Some((index, [1.0 - p - q, p, q]))
+    }
+
     /// Probability of a root at `place` for a unit of area of the rest surface; 0 where
     /// no hair grows. Its integral over the surface is 1.
     pub fn density(&self, place: &SurfacePoint) -> f64 {
@@ -153,6 +163,8 @@ mod tests {
             prop_assert!(pdf.density(&place) > 0.0);
             let (x, y) = pdf.inverse(&place).unwrap();
             let again = sampler.place(x, y);
+            let (_, inside) = pdf.piece_at(&place).unwrap();
+            prop_assert!(inside.iter().all(|w| (-1e-3..=1.001).contains(w)), "{:?}", inside);
             prop_assert_eq!(again.triangle, place.triangle);
             for k in 0..3 {
                 let apart = (again.barycentric[k] - place.barycentric[k]).abs();

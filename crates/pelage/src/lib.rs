@@ -18,7 +18,7 @@
 mod load;
 mod poses;
 
-pub use load::{Loaded, load, load_with};
+pub use load::{Loaded, LoadedRoots, load, load_roots, load_with};
 pub use poses::{PoseFiles, PoseSource};
 
 pub use pelage_curves as curves;
@@ -30,5 +30,5 @@ pub use pelage_strands as strands;
 pub use pelage_surface as surface;
 
 pub use pelage_groom::recipe::Recipe;
-pub use pelage_groom::{Groom, Plan, Report, Request, generate};
+pub use pelage_groom::{Groom, Plan, Report, Request, RootPlan, generate, write_roots};
 pub use pelage_strands::{Collect, Sink, StrandBuffer};

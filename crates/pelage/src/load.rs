@@ -3,7 +3,7 @@
 use crate::poses::{PoseFiles, PoseSource};
 use pelage_curves::Vec3;
 use pelage_groom::recipe::{GuideSource, Recipe, RecipeError, Up};
-use pelage_groom::{Groom, Images, Plan, Request};
+use pelage_groom::{Groom, Images, Plan, Request, RootPlan};
 use pelage_io::{
     MeshFile, ReadError, read_curves, read_image, read_mesh, strands_through_vertices,
 };
@@ -46,39 +46,95 @@ pub fn load(path: &Path) -> Result<Loaded, RecipeError> {
 
 /// As [`load`], from a recipe that was read (and maybe changed) before.
 pub fn load_with(recipe: Recipe) -> Result<Loaded, RecipeError> {
-    let at = |key: &str| {
-        let recipe = recipe.clone();
-        let key = key.to_owned();
-        move |error: ReadError| recipe.error_at(&key, error.to_string())
-    };
-    let rest = read_mesh(&recipe.surface.mesh.resolved, None).map_err(at("surface.mesh"))?;
-    let source = match &recipe.surface.posed {
-        None => PoseSource::Rest,
-        Some(posed) => PoseSource::new(&posed.resolved).map_err(at("surface.posed"))?,
-    };
-    let keep_file_normals = keep_file_normals(&rest, &source);
+    let surface = Surface::read(&recipe)?;
     let guides = match recipe.guides.source() {
-        Some(GuideSource::Curves(file)) => {
-            read_guides(&file.resolved).map_err(at("guides.curves"))?
-        }
+        Some(GuideSource::Curves(file)) => read_guides(&file.resolved)
+            .map_err(|e| recipe.error_at("guides.curves", e.to_string()))?,
         _ => Vec::new(),
     };
-    let info = stream_info(&recipe, &rest);
-    let images = read_images(&recipe)?;
-    let groom = Groom {
-        recipe: recipe.clone(),
-        mesh: rest.mesh,
-        keep_file_normals,
-        images,
-        guides,
-    };
+    let images = read_images(&recipe, |_| true)?;
+    let (groom, poses, info) = surface.groom(&recipe, images, guides);
     let plan = Plan::new(groom).map_err(|e| recipe.error_at(e.key(), e.to_string()))?;
     Ok(Loaded {
-        poses: PoseFiles::new(source, keep_file_normals),
         recipe,
         plan,
+        poses,
         info,
     })
+}
+
+/// The roots of a recipe with everything they need, compiled.
+#[derive(Debug)]
+pub struct LoadedRoots {
+    /// The recipe.
+    pub recipe: Recipe,
+    /// Where hairs stand.
+    pub plan: RootPlan,
+    /// The poses of the surface.
+    pub poses: PoseFiles,
+    /// Up axis and unit, from the recipe or else the mesh.
+    pub info: StreamInfo,
+}
+
+/// Reads only what the roots of `recipe` need: the surface, and the maps of its
+/// sections `roots` and `groups`. Neither guides nor other maps need be there.
+pub fn load_roots(recipe: Recipe) -> Result<LoadedRoots, RecipeError> {
+    let surface = Surface::read(&recipe)?;
+    let needed = |key: &str| key.starts_with("roots.") || key.starts_with("groups.");
+    let images = read_images(&recipe, needed)?;
+    let (groom, poses, info) = surface.groom(&recipe, images, Vec::new());
+    let plan = RootPlan::new(groom).map_err(|e| recipe.error_at(e.key(), e.to_string()))?;
+    Ok(LoadedRoots {
+        recipe,
+        plan,
+        poses,
+        info,
+    })
+}
+
+/// The surface of a recipe as its files give it.
+struct Surface {
+    rest: MeshFile,
+    poses: PoseSource,
+    keep_file_normals: bool,
+}
+
+impl Surface {
+    fn read(recipe: &Recipe) -> Result<Self, RecipeError> {
+        let at =
+            |key: &'static str| move |error: ReadError| recipe.error_at(key, error.to_string());
+        let rest = read_mesh(&recipe.surface.mesh.resolved, None).map_err(at("surface.mesh"))?;
+        let poses = match &recipe.surface.posed {
+            None => PoseSource::Rest,
+            Some(posed) => PoseSource::new(&posed.resolved).map_err(at("surface.posed"))?,
+        };
+        Ok(Self {
+            keep_file_normals: keep_file_normals(&rest, &poses),
+            rest,
+            poses,
+        })
+    }
+
+    fn groom(
+        self,
+        recipe: &Recipe,
+        images: Images,
+        guides: Vec<Vec<Vec3>>,
+    ) -> (Groom, PoseFiles, StreamInfo) {
+        let info = stream_info(recipe, &self.rest);
+        let groom = Groom {
+            recipe: recipe.clone(),
+            mesh: self.rest.mesh,
+            keep_file_normals: self.keep_file_normals,
+            images,
+            guides,
+        };
+        (
+            groom,
+            PoseFiles::new(self.poses, self.keep_file_normals),
+            info,
+        )
+    }
 }
 
 /// Normals of a file serve only where rest and pose both have them (law 4). A pose
@@ -108,9 +164,10 @@ fn read_guides(path: &Path) -> Result<Vec<Vec<Vec3>>, ReadError> {
     Ok(guides)
 }
 
-fn read_images(recipe: &Recipe) -> Result<Images, RecipeError> {
+/// The images of the properties that are `needed`, by key.
+fn read_images(recipe: &Recipe, needed: impl Fn(&str) -> bool) -> Result<Images, RecipeError> {
     let mut images = Images::new();
-    for (key, used) in recipe.maps() {
+    for (key, used) in recipe.maps().into_iter().filter(|(key, _)| needed(key)) {
         let path = &used.path.resolved;
         if !images.contains_key(path) {
             let image = read_image(path).map_err(|e| recipe.error_at(&key, e.to_string()))?;

@@ -14,6 +14,7 @@
 //! | `group`, `triangle` | u32 | m |
 //! | `barycentric`, `root_rest` | f32 | m, 3 |
 //!
+//! Strands are written as they are: a root without hair is a strand of one vertex.
 //! Attributes that the strands lack are left out. Where frames were announced,
 //! `points` and `normals` are shaped frames, n, 3 and an array `frames` (f64) names
 //! them; everything else is of the first frame, as it does not change.

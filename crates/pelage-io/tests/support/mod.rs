@@ -2,8 +2,8 @@
 #![allow(dead_code, reason = "every test program uses another part")]
 #![allow(clippy::unwrap_used, reason = "these are tests too")]
 
-use pelage_io::{WriteOptions, sink_for};
-use pelage_strands::{SinkError, StrandBuffer, StrandMeta, StreamInfo};
+use pelage_io::{WriteOptions, root_sink_for, sink_for};
+use pelage_strands::{Sink, SinkError, StrandBuffer, StrandMeta, StreamInfo};
 use std::path::Path;
 use std::process::Command;
 
@@ -64,6 +64,14 @@ pub fn part(strands: &StrandBuffer, start: usize, end: usize) -> StrandBuffer {
     part
 }
 
+/// The sink that a path asks for; `.ply` takes roots only.
+pub fn sink(path: &Path, options: &WriteOptions) -> Result<Box<dyn Sink>, SinkError> {
+    match path.extension().is_some_and(|e| e == "ply") {
+        true => root_sink_for(path, options),
+        false => sink_for(path, options),
+    }
+}
+
 /// Writes one buffer a frame to `path`, in chunks of `chunk` strands.
 pub fn write(
     path: &Path,
@@ -72,7 +80,7 @@ pub fn write(
     frames: &[StrandBuffer],
     chunk: usize,
 ) -> Result<(), SinkError> {
-    let mut sink = sink_for(path, options)?;
+    let mut sink = sink(path, options)?;
     sink.begin(info)?;
     for (index, strands) in frames.iter().enumerate() {
         sink.begin_frame(index)?;

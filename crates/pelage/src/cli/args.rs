@@ -1,5 +1,6 @@
 //! What can be typed.
 
+use super::values::{frames, open_range, size, vector, whole};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -24,6 +25,7 @@ Examples:
   pelage init meadow --example grass              a recipe of your own to begin with
   pelage generate groom.toml -o hair.usdc         all hairs as USD
   pelage generate groom.toml -o null --stats -    how fast, by stage
+  pelage sample groom.toml -n 1000 -o roots.npz   where hairs stand, without hair
   pelage inspect hair.usdc                        what is in a file, and what is wrong";
 
 /// A command.
@@ -35,6 +37,8 @@ pub enum Command {
     Init(InitArgs),
     /// Grow the hairs of a recipe into a file.
     Generate(GenerateArgs),
+    /// Write or show the roots of hairs, without growing them.
+    Sample(SampleArgs),
     /// Render a picture of a file of hair.
     Render(RenderArgs),
     /// Tell what a file holds, and everything that is wrong with it.
@@ -149,6 +153,68 @@ Examples:
   pelage generate groom.toml -o hair.usdc --frames 1-48
   pelage generate groom.toml -o null --picture look.png --stats -";
 
+/// `pelage sample`.
+#[derive(Debug, Args)]
+#[command(after_help = SAMPLE_EXAMPLES)]
+pub struct SampleArgs {
+    /// The recipe. Of the files it names, only the mesh, its poses and the maps of
+    /// `roots` and `groups` are read.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub recipe: PathBuf,
+    /// Where the roots go: .npz, .ply (a point cloud), or `null` for nowhere.
+    #[arg(long, short, value_hint = ValueHint::FilePath, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Roots to draw instead of the recipe's hair.count; the first N are the same.
+    #[arg(short = 'n', long, value_parser = whole, value_name = "N")]
+    pub count: Option<u64>,
+    /// Only the roots of the hairs A to B - 1; either end may be left out.
+    #[arg(long, value_parser = open_range, value_name = "A..B")]
+    pub range: Option<(Option<u64>, Option<u64>)>,
+    /// The frame whose posed surface to use.
+    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    pub frame: Option<i64>,
+    /// Seed to use instead of the recipe's hair.seed.
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Threads to use; 0 is one a core. The bytes are the same for any number.
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    pub threads: usize,
+    /// Also render a picture of the surface.
+    #[arg(long, value_hint = ValueHint::FilePath, value_name = "PNG")]
+    pub picture: Option<PathBuf>,
+    /// What the picture shows on the surface.
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        value_name = "WHAT",
+        requires = "picture"
+    )]
+    pub show: Shown,
+    #[command(flatten)]
+    pub camera: CameraArgs,
+}
+
+const SAMPLE_EXAMPLES: &str = "\
+Examples:
+  pelage sample groom.toml -n 1_000_000 -o roots.npz
+  pelage sample groom.toml -n 10_000 -o roots.ply
+  pelage sample groom.toml -n 7_000 -o null --picture roots.png
+  pelage sample groom.toml -o null --picture pieces.png --show pieces";
+
+/// What a picture of `pelage sample` shows on the surface.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum Shown {
+    /// roots.density, from pale (0) to dark (the most).
+    Density,
+    /// The pieces that triangles are cut into, each of one density; where no hair
+    /// grows there are none.
+    Pieces,
+    /// A dot for each root.
+    #[default]
+    Roots,
+}
+
 /// `pelage render`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  pelage render hair.usdc -o hair.png\n  \
@@ -173,10 +239,27 @@ pub struct RenderArgs {
     pub view: ViewArgs,
 }
 
-/// Camera and quality of a picture.
+/// Camera, quality and hairs of a picture.
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Picture")]
 pub struct ViewArgs {
+    #[command(flatten)]
+    pub camera: CameraArgs,
+    /// Draw hairs as round tubes instead of ribbons that face the camera.
+    #[arg(long)]
+    pub round: bool,
+    /// How hairs reflect light.
+    #[arg(long, value_enum, default_value_t, value_name = "MODEL")]
+    pub shading: Shading,
+    /// Image with the colours of the surface, by its UVs.
+    #[arg(long, value_hint = ValueHint::FilePath, value_name = "IMAGE")]
+    pub skin: Option<PathBuf>,
+}
+
+/// Camera and quality of a picture.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Picture")]
+pub struct CameraArgs {
     /// Size of the picture.
     #[arg(long, default_value = "1280x720", value_parser = size, value_name = "WxH")]
     pub size: (u32, u32),
@@ -192,15 +275,6 @@ pub struct ViewArgs {
     /// Vertical field of view in degrees.
     #[arg(long, value_name = "DEGREES")]
     pub fov: Option<f32>,
-    /// Draw hairs as round tubes instead of ribbons that face the camera.
-    #[arg(long)]
-    pub round: bool,
-    /// How hairs reflect light.
-    #[arg(long, value_enum, default_value_t, value_name = "MODEL")]
-    pub shading: Shading,
-    /// Image with the colours of the surface, by its UVs.
-    #[arg(long, value_hint = ValueHint::FilePath, value_name = "IMAGE")]
-    pub skin: Option<PathBuf>,
 }
 
 /// A model of how hairs reflect light.
@@ -251,86 +325,25 @@ pub enum Bench {
     Sampling,
 }
 
-impl GenerateArgs {
-    /// The hairs wanted of a groom of `count` hairs.
-    pub fn hairs(&self, count: u64) -> Result<Range<u64>, String> {
-        let (first, end) = self.range.unwrap_or((None, None));
-        let (first, end) = (first.unwrap_or(0), end.unwrap_or(count));
-        if first > end {
-            return Err(format!(
-                "--range {first}..{end}: the first hair comes after the end"
-            ));
-        }
-        if end > count {
-            return Err(format!(
-                "--range {first}..{end}: there are only {count} hairs; \
-                raise --count or hair.count"
-            ));
-        }
-        Ok(first..end)
+/// The hairs A..B of a groom of `count` hairs; `raise` says how to get more.
+pub fn hairs(
+    range: Option<(Option<u64>, Option<u64>)>,
+    count: u64,
+    raise: &str,
+) -> Result<Range<u64>, String> {
+    let (first, end) = range.unwrap_or((None, None));
+    let (first, end) = (first.unwrap_or(0), end.unwrap_or(count));
+    if first > end {
+        return Err(format!(
+            "--range {first}..{end}: the first hair comes after the end"
+        ));
     }
-}
-
-/// A whole number in which `_` may group digits, as in TOML.
-fn whole(text: &str) -> Result<u64, String> {
-    text.replace('_', "")
-        .parse()
-        .map_err(|_| "expected a whole number".to_owned())
-}
-
-fn open_range(text: &str) -> Result<(Option<u64>, Option<u64>), String> {
-    let wrong = || "expected A..B, such as 0..1000 or 500..".to_owned();
-    let (first, end) = text.split_once("..").ok_or_else(wrong)?;
-    let part = |text: &str| match text {
-        "" => Ok(None),
-        text => whole(text).map(Some).map_err(|_| wrong()),
-    };
-    Ok((part(first)?, part(end)?))
-}
-
-fn frames(text: &str) -> Result<(i64, i64), String> {
-    let wrong = || "expected A-B, such as 1-48".to_owned();
-    // The first character may be the sign of A.
-    let dash = text
-        .char_indices()
-        .skip(1)
-        .find(|(_, c)| *c == '-')
-        .ok_or_else(wrong)?
-        .0;
-    let first: i64 = text[..dash].parse().map_err(|_| wrong())?;
-    let last: i64 = text[dash + 1..].parse().map_err(|_| wrong())?;
-    if first > last {
-        return Err(format!("frame {first} comes after frame {last}"));
+    if end > count {
+        return Err(format!(
+            "--range {first}..{end}: there are only {count} hairs; raise {raise} or hair.count"
+        ));
     }
-    if last.abs_diff(first) >= 1_000_000 {
-        return Err("more than a million frames".into());
-    }
-    Ok((first, last))
-}
-
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let parts = text
-        .split_once('x')
-        .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-    match parts {
-        Some((w @ 1..=16384, h @ 1..=16384)) => Ok((w, h)),
-        _ => Err("expected WIDTHxHEIGHT, each 1 to 16384, such as 1280x720".into()),
-    }
-}
-
-fn vector(text: &str) -> Result<[f32; 3], String> {
-    let wrong = || "expected three numbers, such as 0,1.5,-2".to_owned();
-    let parts: Vec<f32> = text
-        .split(',')
-        .map(|p| p.trim().parse())
-        .collect::<Result<_, _>>()
-        .map_err(|_| wrong())?;
-    let vector: [f32; 3] = parts.try_into().map_err(|_| wrong())?;
-    if vector.iter().all(|x: &f32| x.is_finite()) {
-        Ok(vector)
-    } else {
-        Err(wrong())
-    }
+    Ok(first..end)
 }
 
 #[cfg(test)]
@@ -341,18 +354,5 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn ranges_and_frames_are_read() {
-        assert_eq!(open_range("0..1_000"), Ok((Some(0), Some(1000))));
-        assert_eq!(open_range("5.."), Ok((Some(5), None)));
-        assert!(open_range("5").is_err());
-        assert_eq!(frames("1-48"), Ok((1, 48)));
-        assert_eq!(frames("-3--1"), Ok((-3, -1)));
-        assert!(frames("4-2").is_err());
-        assert_eq!(size("640x480"), Ok((640, 480)));
-        assert!(size("640x0").is_err());
-        assert_eq!(vector("0, 1.5,-2"), Ok([0.0, 1.5, -2.0]));
     }
 }

@@ -1,6 +1,6 @@
 //! `pelage demo`: a furry animal, from nothing.
 
-use super::args::{DemoArgs, Shading, ViewArgs};
+use super::args::{CameraArgs, DemoArgs, Shading, ViewArgs};
 use super::generate::{FirstFrame, Job, options};
 use super::say::{Say, spent};
 use anyhow::{Context, Result};
@@ -35,11 +35,13 @@ pub fn run(args: &DemoArgs, say: &Say) -> Result<ExitCode> {
     let started = Instant::now();
     let picture = folder.join("picture.png");
     let view = ViewArgs {
-        size: args.size,
-        samples: None,
-        from: None,
-        to: None,
-        fov: None,
+        camera: CameraArgs {
+            size: args.size,
+            samples: None,
+            from: None,
+            to: None,
+            fov: None,
+        },
         round: false,
         shading: Shading::default(),
         skin: Some(folder.join("skin.png")),

@@ -1,6 +1,6 @@
 //! `pelage generate`: a recipe's hairs into a file.
 
-use super::args::{GenerateArgs, ViewArgs};
+use super::args::{GenerateArgs, ViewArgs, hairs};
 use super::picture;
 use super::progress::Bar;
 use super::say::{Say, bytes, grouped, spent};
@@ -52,6 +52,14 @@ pub fn options(ribbons: bool) -> WriteOptions {
     }
 }
 
+/// Threads asked for, where 0 is one a core.
+pub fn threads_of(asked: usize) -> usize {
+    match asked {
+        0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
+        n => n,
+    }
+}
+
 /// A loaded recipe and what is to be made of it.
 pub struct Job {
     loaded: Loaded,
@@ -68,9 +76,8 @@ impl Job {
             None => Vec::new(),
         };
         let mut job = Self::load(recipe, args.threads, say)?;
-        job.request.hairs = args
-            .hairs(job.loaded.plan.count())
-            .map_err(anyhow::Error::msg)?;
+        job.request.hairs =
+            hairs(args.range, job.loaded.plan.count(), "--count").map_err(anyhow::Error::msg)?;
         if frames.is_empty() && args.frame.is_none() && job.loaded.poses.source().is_animated() {
             bail!("surface.posed has a pose for each frame: say which with --frame or --frames");
         }
@@ -88,11 +95,7 @@ impl Job {
         let started = Instant::now();
         let loaded = load_with(recipe)?;
         loaded.plan.notes().iter().for_each(|note| say.note(note));
-        let threads = match threads {
-            0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
-            n => n,
-        };
-        let request = loaded.request(0..loaded.plan.count(), threads);
+        let request = loaded.request(0..loaded.plan.count(), threads_of(threads));
         Ok(Self {
             loaded,
             request,

@@ -12,8 +12,10 @@ mod inspect;
 mod pages;
 mod picture;
 mod progress;
+mod sample;
 mod say;
 mod stats;
+mod values;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -30,6 +32,7 @@ pub fn run() -> ExitCode {
         Command::Demo(args) => demo::run(&args, &say),
         Command::Init(args) => init::run(&args, &say),
         Command::Generate(args) => generate::run(&args, &say),
+        Command::Sample(args) => sample::run(&args, &say),
         Command::Render(args) => picture::run(&args, &say),
         Command::Inspect(args) => inspect::run(&args, &say),
         Command::Bench(args) => bench::run(&args, &say),

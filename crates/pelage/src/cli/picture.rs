@@ -1,6 +1,6 @@
 //! `pelage render`, and the pictures of `generate` and `demo`.
 
-use super::args::{RenderArgs, Shading, ViewArgs};
+use super::args::{CameraArgs, RenderArgs, Shading, ViewArgs};
 use super::progress::Bar;
 use super::say::{Say, spent};
 use anyhow::{Context, Result, bail};
@@ -84,12 +84,7 @@ pub fn draw(
     if let Some(skin) = &skin {
         scene = scene.painted(skin);
     }
-    let standard = Settings::default();
     let settings = Settings {
-        width: view.size.0,
-        height: view.size.1,
-        samples: view.samples.unwrap_or(standard.samples),
-        threads: (threads > 0).then_some(threads),
         shape: if view.round {
             Shape::Round
         } else {
@@ -99,14 +94,34 @@ pub fn draw(
             Shading::Marschner => Reflection::Marschner,
             Shading::KajiyaKay => Reflection::KajiyaKay,
         },
-        ..standard
+        ..Settings::default()
     };
-    let mut camera = Camera::portrait(&scene, up, settings.aspect(), AZIMUTH, ELEVATION);
-    camera.to = view.to.unwrap_or(camera.to);
-    camera.from = view.from.unwrap_or(camera.from);
-    camera.fov = view.fov.unwrap_or(camera.fov);
+    draw_scene(&scene, up, &view.camera, settings, threads, output, say)
+}
+
+/// Renders `scene` as `asked`, and for the rest by `settings`, into the PNG at `output`.
+pub fn draw_scene(
+    scene: &Scene,
+    up: UpAxis,
+    asked: &CameraArgs,
+    settings: Settings,
+    threads: usize,
+    output: &Path,
+    say: &Say,
+) -> Result<()> {
+    let settings = Settings {
+        width: asked.size.0,
+        height: asked.size.1,
+        samples: asked.samples.unwrap_or(settings.samples),
+        threads: (threads > 0).then_some(threads),
+        ..settings
+    };
+    let mut camera = Camera::portrait(scene, up, settings.aspect(), AZIMUTH, ELEVATION);
+    camera.to = asked.to.unwrap_or(camera.to);
+    camera.from = asked.from.unwrap_or(camera.from);
+    camera.fov = asked.fov.unwrap_or(camera.fov);
     let bar = Bar::new(say, 100, "% of the picture");
-    let picture = render(&scene, &camera, &settings, |part| {
+    let picture = render(scene, &camera, &settings, |part| {
         bar.set((part * 100.0) as u64)
     })?;
     drop(bar);

@@ -1,0 +1,90 @@
+//! Chunks made by several threads and taken in order.
+//!
+//! Memory is a fixed number of chunks and each thread's scratch, whatever the number of
+//! chunks. The threads draw chunk numbers in order and only when they hold an empty
+//! chunk, so the one that is waited for always has one and nothing can lock up.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, mpsc};
+
+/// Makes chunks 0 to `chunks` - 1 on `threads` threads, each with a worker of its own,
+/// and hands them to `take` on this thread, in order, until it fails.
+pub(crate) fn in_order<W: Default, C: Default + Send, E>(
+    chunks: u64,
+    threads: usize,
+    make: impl Fn(&mut W, u64, &mut C) + Sync,
+    mut take: impl FnMut(u64, &C) -> Result<(), E>,
+) -> Result<(), E> {
+    if threads > 1 {
+        return together(chunks, threads, &make, &mut take);
+    }
+    let (mut worker, mut chunk) = (W::default(), C::default());
+    for number in 0..chunks {
+        make(&mut worker, number, &mut chunk);
+        take(number, &chunk)?;
+    }
+    Ok(())
+}
+
+fn together<W: Default, C: Default + Send, E>(
+    chunks: u64,
+    threads: usize,
+    make: &(impl Fn(&mut W, u64, &mut C) + Sync),
+    take: &mut impl FnMut(u64, &C) -> Result<(), E>,
+) -> Result<(), E> {
+    let next = AtomicU64::new(0);
+    let (give_empty, take_empty) = mpsc::channel::<C>();
+    let (give_full, take_full) = mpsc::channel::<(u64, C)>();
+    // One chunk a thread in the making and one waiting to be taken.
+    for _ in 0..2 * threads {
+        // The receiver lives until the end of this function.
+        let _ = give_empty.send(C::default());
+    }
+    let take_empty = Mutex::new(take_empty);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            let give_full = give_full.clone();
+            let (next, take_empty) = (&next, &take_empty);
+            scope.spawn(move || {
+                let mut worker = W::default();
+                loop {
+                    // A poisoned lock means that another thread panicked; stop too.
+                    let Ok(waiting) = take_empty.lock() else {
+                        return;
+                    };
+                    let Ok(mut chunk) = waiting.recv() else {
+                        return;
+                    };
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    drop(waiting);
+                    if number >= chunks {
+                        return;
+                    }
+                    make(&mut worker, number, &mut chunk);
+                    if give_full.send((number, chunk)).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(give_full);
+        // Dropping `give_empty` and `take_full` on the way out, in success or failure,
+        // is what ends the threads.
+        let (give_empty, take_full) = (give_empty, take_full);
+        let mut early = BTreeMap::new();
+        let mut wanted = 0;
+        while wanted < chunks {
+            let Ok((number, chunk)) = take_full.recv() else {
+                break;
+            };
+            early.insert(number, chunk);
+            while let Some(chunk) = early.remove(&wanted) {
+                take(wanted, &chunk)?;
+                wanted += 1;
+                let _ = give_empty.send(chunk);
+            }
+        }
+        Ok(())
+    })
+}
