@@ -23,9 +23,9 @@ const LANES: usize = 512;
 /// Roots drawn at once, whose numbers stay in the first-level cache.
 const BATCH: usize = 64;
 
-/// Hairs of an interval whose runs are listed before they are drawn: drawing is compiled
-/// for the processor at hand, and visitors are not.
-const SLICE: u128 = 1 << 14;
+/// Runs of an interval that are listed before they are drawn: drawing is compiled for the
+/// processor at hand, and visitors are not.
+const RUNS: usize = 256;
 
 /// Hairs that follow each other in a tile; with roots of 16 bytes, runs of 512 bytes.
 const RUN: usize = 32;
@@ -70,35 +70,25 @@ impl RootSampler {
         count: u64,
         mut visit: impl FnMut(&[u64], &[SurfacePoint]),
     ) {
-        dispatch!(Level::new(), simd => {
-            let _ = simd;
-            self.draw_runs([low as u128, high], count, &mut visit)
-        });
+        let mut runs = Vec::with_capacity(RUNS);
+        let listed = &mut |run| {
+            runs.push(run);
+            if runs.len() == RUNS {
+                self.draw_runs(&runs, &mut visit);
+                runs.clear();
+            }
+        };
+        self.sequence()
+            .runs_in([low as u128, high], count, BATCH as u64, listed);
+        self.draw_runs(&runs, &mut visit);
     }
 
-    #[inline(always)]
-    fn draw_runs(
-        &self,
-        [low, high]: [u128; 2],
-        count: u64,
-        visit: &mut impl FnMut(&[u64], &[SurfacePoint]),
-    ) {
+    fn draw_runs(&self, runs: &[Run], visit: &mut impl FnMut(&[u64], &[SurfacePoint])) {
         let mut hairs = [0; BATCH];
         let mut roots = [SurfacePoint::default(); BATCH];
-        let mut runs: Vec<Run> = Vec::new();
-        let width = high.saturating_sub(low);
-        let expected = width.saturating_mul(count as u128) >> 64;
-        let slices = expected / SLICE + 1;
-        for slice in 0..slices {
-            let end = |k: u128| low + (width / slices * k).max(width * (k == slices) as u128);
-            runs.clear();
-            self.sequence().runs_in(
-                [end(slice), end(slice + 1)],
-                count,
-                BATCH as u64,
-                &mut |run| runs.push(run),
-            );
-            for run in &runs {
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            for run in runs {
                 let last = run.count - 1;
                 for (k, hair) in hairs.iter_mut().enumerate() {
                     *hair = run.index(last.min(k as u64));
@@ -107,7 +97,7 @@ impl RootSampler {
                 let drawn = run.count as usize;
                 visit(&hairs[..drawn], &roots[..drawn]);
             }
-        }
+        });
     }
 
     #[inline(always)]
@@ -151,12 +141,12 @@ impl RootSampler {
 
     #[inline(always)]
     fn fill_in_order(&self, first: u64, roots: &mut [SurfacePoint]) {
-        let (rows, rest) = roots.as_chunks_mut::<16>();
+        let (rows, rest) = roots.as_chunks_mut::<BATCH>();
         for (k, row) in rows.iter_mut().enumerate() {
-            let hair = first + 16 * k as u64;
+            let hair = first + (BATCH * k) as u64;
             self.draw(|k| hair + k as u64, row);
         }
-        let done = 16 * rows.len();
+        let done = BATCH * rows.len();
         for (k, root) in rest.iter_mut().enumerate() {
             let hair = first + (done + k) as u64;
             self.draw(|_| hair, std::array::from_mut(root));
@@ -185,7 +175,7 @@ fn largest_block(first: u64, count: usize) -> usize {
 mod tests {
     use super::*;
     use crate::fixture::{sheet, spots};
-    use crate::{Density, Wrap};
+    use crate::{Density, Spread, Wrap};
     use proptest::prelude::*;
 
     proptest! {
@@ -214,21 +204,23 @@ mod tests {
             value: 1.0,
             map: Some((&map, 0, Wrap::Repeat)),
         };
-        let sampler = RootSampler::new(&sheet(6), &density, 4).unwrap();
-        for (low, high) in [(0, 1 << 64), (1 << 61, 5 << 61), (77, 78)] {
-            let mut found = Vec::new();
-            sampler.roots_in(low, high, 3000, |hairs, roots| {
-                for (&hair, root) in hairs.iter().zip(roots) {
-                    assert_eq!(*root, sampler.root(hair));
-                    found.push(hair);
-                }
-            });
-            let mut expected = Vec::new();
-            let visit = &mut |hair| expected.push(hair);
-            sampler.sequence().indices_in(low, high, 3000, visit);
-            found.sort_unstable();
-            expected.sort_unstable();
-            assert_eq!(found, expected);
+        let even = RootSampler::new(&sheet(6), &density, 4).unwrap();
+        for sampler in [even.clone().with_spread(Spread::Random), even] {
+            for (low, high) in [(0, 1 << 64), (1 << 61, 5 << 61), (77, 78)] {
+                let mut found = Vec::new();
+                sampler.roots_in(low, high, 30_000, |hairs, roots| {
+                    for (&hair, root) in hairs.iter().zip(roots) {
+                        assert_eq!(*root, sampler.root(hair));
+                        found.push(hair);
+                    }
+                });
+                let mut expected = Vec::new();
+                let visit = &mut |hair| expected.push(hair);
+                sampler.sequence().indices_in(low, high, 30_000, visit);
+                found.sort_unstable();
+                expected.sort_unstable();
+                assert_eq!(found, expected);
+            }
         }
     }
 
