@@ -6,7 +6,7 @@
 //! map), parts that are too deep are named from a *split*: a part of the triangle that
 //! is listed as if it were one more triangle.
 
-use crate::subdivide::{Part, Piece, parts, parts_down_to};
+use crate::subdivide::{Part, Piece, first_part, parts};
 use std::collections::HashMap;
 
 /// Depth to which parts have a table entry, at 12 bytes: 5,461 parts, which stay in the
@@ -37,7 +37,7 @@ impl Pieces {
 
     /// Packs `found` with part indices down to `depth`, if all hosts can be named.
     fn with_depth(found: &[Piece], triangles: u32, depth: u32) -> Option<Self> {
-        let part_bits = (parts_down_to(depth) - 1)
+        let part_bits = (first_part(depth + 1) - 1)
             .checked_ilog2()
             .map_or(0, |b| b + 1);
         let hosts = 1u64 << (32 - part_bits);
@@ -135,7 +135,7 @@ impl Names<'_> {
 /// How often the whole was cut to make part `index`.
 fn depth_of(index: u32) -> u32 {
     (0..)
-        .find(|&d| (index as usize) < parts_down_to(d))
+        .find(|&d| (index as usize) < first_part(d + 1))
         .unwrap_or(0)
 }
 

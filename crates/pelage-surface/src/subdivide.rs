@@ -93,14 +93,14 @@ impl Part {
     }
 }
 
-/// Number of parts down to `depth`.
-pub(crate) fn parts_down_to(depth: u32) -> usize {
-    ((1usize << (2 * (depth + 1))) - 1) / 3
+/// Index of the first part of depth `depth`, which is the number of those above it.
+pub(crate) fn first_part(depth: u32) -> usize {
+    ((1usize << (2 * depth)) - 1) / 3
 }
 
 /// All parts down to `depth`, at the index that names them.
 pub(crate) fn parts(depth: u32) -> Vec<Part> {
-    let count = parts_down_to(depth);
+    let count = first_part(depth + 1);
     let mut parts = Vec::with_capacity(count);
     parts.push(Part::WHOLE);
     let mut parent = 0;
@@ -122,9 +122,7 @@ pub(crate) struct Piece {
 
 /// The pieces of all triangles in the order given, without those of density zero.
 pub(crate) fn pieces(mesh: &Mesh, order: &[u32], density: &Density) -> Vec<Piece> {
-    let depth = |&triangle: &u32| depth_of(mesh, triangle, density);
-    let deepest = order.par_iter().map(depth).max().unwrap_or(0);
-    let leaves = Leaves::down_to(deepest.min(TABLE_DEPTH));
+    let leaves = Leaves::new();
     let level = Level::new();
     order
         .par_chunks(256)
@@ -134,7 +132,7 @@ pub(crate) fn pieces(mesh: &Mesh, order: &[u32], density: &Density) -> Vec<Piece
                 mesh,
                 density,
                 leaves: &leaves,
-                levels: vec![Vec::new(); deepest as usize + 1],
+                levels: [const { Vec::new() }; MAX_DEPTH as usize + 1],
             };
             dispatch!(level, simd => {
                 let _ = simd;
@@ -152,18 +150,17 @@ pub(crate) fn pieces(mesh: &Mesh, order: &[u32], density: &Density) -> Vec<Piece
 /// inside another.
 const TABLE_DEPTH: u32 = 6;
 
-/// Centres of the parts of each depth, in the order of their names.
-struct Leaves(Vec<Vec<[f32; 2]>>);
+/// Centres of the parts down to [`TABLE_DEPTH`], at the index that names them.
+struct Leaves(Vec<[f32; 2]>);
 
 impl Leaves {
-    fn down_to(depth: u32) -> Self {
-        let parts = parts(depth);
-        let of_depth = |d: u32| {
-            let first = parts_down_to(d) - (1 << (2 * d));
-            let parts = &parts[first..parts_down_to(d)];
-            parts.iter().map(|p| p.at(1.0 / 3.0, 1.0 / 3.0)).collect()
-        };
-        Self((0..=depth).map(of_depth).collect())
+    fn new() -> Self {
+        let centre = |part: Part| part.at(1.0 / 3.0, 1.0 / 3.0);
+        Self(parts(TABLE_DEPTH).into_iter().map(centre).collect())
+    }
+
+    fn of_depth(&self, depth: u32) -> &[[f32; 2]] {
+        &self.0[first_part(depth)..first_part(depth + 1)]
     }
 }
 
@@ -175,7 +172,7 @@ struct Cutter<'a> {
     density: &'a Density<'a>,
     leaves: &'a Leaves,
     /// Densities of the parts of each depth.
-    levels: Vec<Vec<f32>>,
+    levels: [Vec<f32>; MAX_DEPTH as usize + 1],
 }
 
 impl Cutter<'_> {
@@ -187,8 +184,7 @@ impl Cutter<'_> {
         if !has_area {
             return;
         }
-        let depth = depth_of(self.mesh, triangle, self.density);
-        self.sample(triangle, depth);
+        let depth = self.sample(triangle);
         let uncut = (0..depth)
             .rev()
             .find(|&d| !self.merge(d))
@@ -197,23 +193,27 @@ impl Cutter<'_> {
         self.emit(0, 0, uncut, &mut |d, i, density| {
             pieces.push(Piece {
                 triangle,
-                part: (parts_down_to(d) - (1 << (2 * d)) + i) as u32,
+                part: (first_part(d) + i) as u32,
                 weight: weight / (1u64 << (2 * d)) as f64 * density as f64,
             });
         });
     }
 
-    /// Reads the density at the centres of the parts of depth `depth`.
+    /// Reads the density at the centres of the parts that are small enough for the map;
+    /// returns their depth.
     #[inline(always)]
-    fn sample(&mut self, triangle: u32, depth: u32) {
+    fn sample(&mut self, triangle: u32) -> u32 {
+        let Some((map, channel, wrap)) = self.density.map else {
+            self.levels[0].clear();
+            self.levels[0].push(1.0);
+            return 0;
+        };
+        let all = self.mesh.uvs().get(triangle as usize);
+        let uv = all.copied().unwrap_or([Vec2::ZERO; 3]);
+        let depth = depth_for(uv, map);
+        let leaves = self.leaves.of_depth(depth.min(TABLE_DEPTH));
         let level = &mut self.levels[depth as usize];
         level.clear();
-        let Some((map, channel, wrap)) = self.density.map else {
-            level.push(1.0);
-            return;
-        };
-        let uv = uvs(self.mesh, triangle);
-        let leaves = &self.leaves.0[depth.min(TABLE_DEPTH) as usize];
         for_each_part(
             Part::WHOLE,
             depth.saturating_sub(TABLE_DEPTH),
@@ -228,6 +228,7 @@ impl Cutter<'_> {
                 }));
             },
         );
+        depth
     }
 
     /// Gives the parts of depth `depth` the density that their four parts share, and
@@ -277,17 +278,6 @@ fn for_each_part(part: Part, depth: u32, visit: &mut impl FnMut(Part)) {
     }
 }
 
-fn uvs(mesh: &Mesh, triangle: u32) -> [Vec2; 3] {
-    let all = mesh.uvs().get(triangle as usize);
-    all.copied().unwrap_or([Vec2::ZERO; 3])
-}
-
-fn depth_of(mesh: &Mesh, triangle: u32, density: &Density) -> u32 {
-    density
-        .map
-        .map_or(0, |(map, ..)| depth_for(uvs(mesh, triangle), map))
-}
-
 /// Longest side a part may have, in texels, where its area alone would do: slivers of
 /// texture are resolved along their length too.
 const LONGEST: f32 = 4.0;
@@ -321,8 +311,7 @@ mod tests {
     fn parts_fill_the_triangle() {
         let parts = parts(3);
         for depth in 0..=3u32 {
-            let first = ((1usize << (2 * depth)) - 1) / 3;
-            let area: f32 = parts[first..first + (1 << (2 * depth))]
+            let area: f32 = parts[first_part(depth)..first_part(depth + 1)]
                 .iter()
                 .map(|p| p.size * p.size)
                 .sum();
