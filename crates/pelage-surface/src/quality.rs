@@ -41,10 +41,8 @@ const LEAF: usize = 8;
 /// Infinite where no two samples are neighbours.
 pub fn smallest_distance_ratio(samples: &[Sample], area: f64) -> f64 {
     let sorted = along_curve(samples);
-    let leaves = sorted.chunks(LEAF).map(|leaf| {
-        let bounds = leaf.iter().map(Sample::bounds);
-        bounds.fold(Bounds::EMPTY, |a, b| a.and(&b))
-    });
+    let leaves = sorted.chunks(LEAF);
+    let leaves = leaves.map(|leaf| Bounds::around(leaf.iter().map(Sample::bounds)));
     let tree = Hierarchy::new(leaves);
     let mut least = f32::INFINITY;
     for (i, a) in sorted.iter().enumerate() {
@@ -68,8 +66,7 @@ pub fn smallest_distance_ratio(samples: &[Sample], area: f64) -> f64 {
 }
 
 fn along_curve(samples: &[Sample]) -> Vec<Sample> {
-    let bounds = samples.iter().map(Sample::bounds);
-    let Bounds { low, high, .. } = bounds.fold(Bounds::EMPTY, |a, b| a.and(&b));
+    let Bounds { low, high, .. } = Bounds::around(samples.iter().map(Sample::bounds));
     let side = (high - low).max_element().max(f32::MIN_POSITIVE);
     let mut sorted = samples.to_vec();
     sorted.sort_by_cached_key(|s| hilbert_index(s.position, low, side));

@@ -21,6 +21,11 @@ impl Bounds {
         least: f32::INFINITY,
     };
 
+    /// The bounds of all.
+    pub(crate) fn around(all: impl Iterator<Item = Bounds>) -> Self {
+        all.fold(Self::EMPTY, |a, b| a.and(&b))
+    }
+
     /// The bounds of both.
     pub(crate) fn and(&self, other: &Bounds) -> Bounds {
         Bounds {

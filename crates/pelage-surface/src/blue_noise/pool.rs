@@ -86,15 +86,21 @@ impl<'a> Pool<'a> {
             .collect()
     }
 
+    /// The closeness in a part of the mass where the piece has its `own`.
+    #[inline(always)]
+    fn smoothed(&self, part: usize, own: f32) -> f32 {
+        let average = self.closeness[part];
+        if average > 0.0 { average } else { own }
+    }
+
     #[inline(always)]
     fn draw(&self, first: u64, chunk: u64, places: &mut Places) -> Cluster {
         let number = |lane: usize| first + lane as u64;
         let fractions = Fractions::new(|lane| self.fraction(number(lane)));
         self.ground.places(&fractions, places);
         for lane in 0..LANES {
-            let average = self.closeness[(number(lane) / SMOOTHED) as usize];
-            let own = places.closeness[lane];
-            places.closeness[lane] = if average > 0.0 { average } else { own };
+            let part = (number(lane) / SMOOTHED) as usize;
+            places.closeness[lane] = self.smoothed(part, places.closeness[lane]);
         }
         let mut drawn = Cluster::new(chunk);
         drawn.draw(places, (first - chunk) as u16, self.ground);
@@ -105,11 +111,9 @@ impl<'a> Pool<'a> {
     fn sites(&self, roots: &[u64]) -> Vec<Site> {
         let rows = self.ground.rows(roots, |places, lane, x| {
             let part = ((x / self.step / SMOOTHED) as usize).min(self.closeness.len() - 1);
-            let average = self.closeness[part];
-            let own = places.closeness[lane];
             Site {
                 position: Vec3::new(places.x[lane], places.y[lane], places.z[lane]),
-                closeness: if average > 0.0 { average } else { own },
+                closeness: self.smoothed(part, places.closeness[lane]),
                 normal: self.ground.normals()[places.triangle[lane] as usize],
             }
         });
@@ -217,10 +221,7 @@ struct Taken {
 
 impl Taken {
     fn new(sites: Vec<Site>) -> Self {
-        let leaf = |leaf: &[Site]| {
-            let bounds = leaf.iter().map(Site::bounds);
-            bounds.fold(Bounds::EMPTY, |a, b| a.and(&b))
-        };
+        let leaf = |leaf: &[Site]| Bounds::around(leaf.iter().map(Site::bounds));
         Self {
             tree: Hierarchy::new(sites.chunks(LEAF).map(leaf)),
             sites,
