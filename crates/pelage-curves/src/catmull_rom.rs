@@ -38,18 +38,24 @@ pub fn position([a, b, c, d]: [Vec3; 4], t: f32) -> Vec3 {
 /// with ends duplicated. Where that difference vanishes (two neighbours of a
 /// vertex coincide) the outgoing, else the incoming edge is used; a curve without
 /// any length gets +Z.
-#[inline]
 pub fn tangents(points: &[Vec3], tangents: &mut [Vec3]) {
     let last = points.len().saturating_sub(1);
+    let mut previous = Vec3::Z;
     for i in 0..points.len() {
         let (before, after) = (points[i.saturating_sub(1)], points[(i + 1).min(last)]);
-        let across = after - before;
-        let choices = [across, after - points[i], points[i] - before];
-        tangents[i] = choices
-            .into_iter()
-            .find_map(Vec3::try_normalize)
-            .unwrap_or(if i > 0 { tangents[i - 1] } else { Vec3::Z });
+        previous = tangent(before, points[i], after, previous);
+        tangents[i] = previous;
     }
+}
+
+/// Unit tangent at `here` between its neighbours; `previous` where all three coincide.
+#[inline(always)]
+pub(crate) fn tangent(before: Vec3, here: Vec3, after: Vec3, previous: Vec3) -> Vec3 {
+    let unit = Vec3::try_normalize;
+    unit(after - before)
+        .or_else(|| unit(after - here))
+        .or_else(|| unit(here - before))
+        .unwrap_or(previous)
 }
 
 /// Smallest axis-aligned box `(min, max)` around the curve itself, without widths.

@@ -11,6 +11,7 @@ use glam::Vec3;
 
 /// Some unit vector perpendicular to the unit vector `direction`; a continuous
 /// function of it but for one direction (-Z).
+#[inline(always)]
 pub fn any_perpendicular(direction: Vec3) -> Vec3 {
     // Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
     let sign = 1.0f32.copysign(direction.z);
@@ -28,8 +29,8 @@ pub fn any_perpendicular(direction: Vec3) -> Vec3 {
 ///
 /// `first` is where the first normal should point; it is made perpendicular to
 /// the first tangent, and replaced by some perpendicular where they are parallel.
-/// The three slices have one length.
-#[inline]
+/// The three slices have one length. [`untwisted_normals`](crate::untwisted_normals)
+/// is faster for many curves.
 pub fn double_reflection(points: &[Vec3], tangents: &[Vec3], first: Vec3, normals: &mut [Vec3]) {
     let Some(&tangent) = tangents.first() else {
         return;
@@ -37,21 +38,20 @@ pub fn double_reflection(points: &[Vec3], tangents: &[Vec3], first: Vec3, normal
     let mut normal = perpendicular_part(first, tangent);
     normals[0] = normal;
     for i in 1..points.len() {
-        normal = perpendicular_part(
-            reflect_twice(
-                points[i] - points[i - 1],
-                tangents[i - 1],
-                tangents[i],
-                normal,
-            ),
-            tangents[i],
-        );
+        let step = points[i] - points[i - 1];
+        normal = next_normal(step, tangents[i - 1], tangents[i], normal);
         normals[i] = normal;
     }
 }
 
-/// Carries `normal` along `step` from a vertex with tangent `from` to one with `to`.
-#[inline]
+/// Carries the unit `normal` along `step` from a vertex with unit tangent `from` to one
+/// with `to`.
+#[inline(always)]
+pub(crate) fn next_normal(step: Vec3, from: Vec3, to: Vec3, normal: Vec3) -> Vec3 {
+    perpendicular_part(reflect_twice(step, from, to, normal), to)
+}
+
+#[inline(always)]
 fn reflect_twice(step: Vec3, from: Vec3, to: Vec3, normal: Vec3) -> Vec3 {
     let square = step.length_squared();
     let (tangent_left, normal_left) = if square > 0.0 {
@@ -73,8 +73,8 @@ fn reflect_twice(step: Vec3, from: Vec3, to: Vec3, normal: Vec3) -> Vec3 {
 }
 
 /// Unit part of `vector` perpendicular to the unit `tangent`.
-#[inline]
-fn perpendicular_part(vector: Vec3, tangent: Vec3) -> Vec3 {
+#[inline(always)]
+pub(crate) fn perpendicular_part(vector: Vec3, tangent: Vec3) -> Vec3 {
     let part = vector - tangent * vector.dot(tangent);
     let square = part.length_squared();
     // Below this the direction is rounding noise of a unit vector.

@@ -22,6 +22,7 @@ mod basis;
 pub mod catmull_rom;
 mod curve;
 mod frames;
+mod many;
 
 pub use arc_length::ArcLength;
 pub use basis::{Basis, Wrap};
@@ -29,3 +30,4 @@ pub use curve::{Curve, CurveError};
 pub use frames::{any_perpendicular, double_reflection};
 pub use glam;
 pub use glam::{DVec3, Vec2, Vec3};
+pub use many::{FrameScratch, untwisted_normals};

@@ -7,7 +7,7 @@ use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::plan::Plan;
 use crate::stages::{frames, interpolate, look, scale, world};
-use pelage_curves::Vec3;
+use pelage_curves::{FrameScratch, Vec3};
 use pelage_strands::{StrandBuffer, StrandMeta};
 use pelage_surface::{Mesh, RootFrame};
 
@@ -16,7 +16,7 @@ use pelage_surface::{Mesh, RootFrame};
 pub struct Scratch {
     local: Vec<Vec3>,
     posed: Vec<RootFrame>,
-    tangents: Vec<Vec3>,
+    frames: FrameScratch,
 }
 
 impl Plan {
@@ -40,7 +40,7 @@ impl Plan {
         let Scratch {
             local,
             posed,
-            tangents,
+            frames: side_by_side,
         } = scratch;
         let frames = match pose {
             None => &capture.frames,
@@ -53,7 +53,9 @@ impl Plan {
         to_world(frames, local, out);
         let started = clock.stop(Stage::World, started);
         if self.normals {
-            frame(frames, tangents, out);
+            let points = bytemuck::cast_slice(&out.points);
+            let normals = bytemuck::cast_slice_mut(&mut out.normals);
+            frames::normals(frames, points, &out.offsets, side_by_side, normals);
         }
         clock.stop(Stage::Frames, started);
     }
@@ -116,15 +118,5 @@ fn to_world(frames: &[RootFrame], local: &[Vec3], out: &mut StrandBuffer) {
         let range = out.vertices(i);
         let points = bytemuck::cast_slice_mut(&mut out.points[range.clone()]);
         world::to_world(frame, &local[range], points);
-    }
-}
-
-fn frame(frames: &[RootFrame], tangents: &mut Vec<Vec3>, out: &mut StrandBuffer) {
-    tangents.resize(out.points.len(), Vec3::ZERO);
-    for (i, root) in frames.iter().enumerate() {
-        let range = out.vertices(i);
-        let normals = bytemuck::cast_slice_mut(&mut out.normals[range.clone()]);
-        let points = bytemuck::cast_slice(&out.points[range.clone()]);
-        frames::normals(root, points, &mut tangents[range], normals);
     }
 }

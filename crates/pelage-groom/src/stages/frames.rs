@@ -4,12 +4,16 @@
 //! surface tangent at the root made perpendicular to the curve. World space, unit
 //! vectors.
 
-use pelage_curves::{Vec3, catmull_rom, double_reflection};
+use pelage_curves::{FrameScratch, Vec3, untwisted_normals};
 use pelage_surface::RootFrame;
 
-/// Writes the normals of a hair; `tangents` is scratch of the same length.
-#[inline]
-pub fn normals(root: &RootFrame, hair: &[Vec3], tangents: &mut [Vec3], normals: &mut [Vec3]) {
-    catmull_rom::tangents(hair, tangents);
-    double_reflection(hair, tangents, root.tangent, normals);
+/// Writes the normals of hairs; hair `i` has the vertices `offsets[i]..offsets[i + 1]`.
+pub fn normals(
+    roots: &[RootFrame],
+    hairs: &[Vec3],
+    offsets: &[u32],
+    scratch: &mut FrameScratch,
+    normals: &mut [Vec3],
+) {
+    untwisted_normals(hairs, offsets, |i| roots[i].tangent, scratch, normals);
 }

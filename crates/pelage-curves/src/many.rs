@@ -1,0 +1,186 @@
+//! Frames of many curves at once.
+//!
+//! Along one curve each normal waits for the one before, with two divisions and a root
+//! in between: the processor idles. Curves do not wait for each other, so [`LANES`] of
+//! them are walked side by side, vertex by vertex, with their coordinates in rows. What
+//! is done at a vertex is the text that serves a single curve ([`catmull_rom::tangent`],
+//! [`next_normal`]), so a curve's frames have the same bits whatever its neighbours and
+//! whatever the processor's vectors.
+
+use crate::catmull_rom;
+use crate::frames::{next_normal, perpendicular_part};
+use fearless_simd::{Level, dispatch};
+use glam::Vec3;
+use std::ops::Range;
+
+/// Curves side by side: two of the widest common vectors, so that one's roots and
+/// divisions run while the other's are waited for.
+const LANES: usize = 16;
+
+/// One vector of each of the curves that are side by side.
+#[derive(Clone, Copy, Debug)]
+struct Row([[f32; LANES]; 3]);
+
+impl Row {
+    const ZERO: Self = Self([[0.0; LANES]; 3]);
+
+    #[inline(always)]
+    fn get(&self, lane: usize) -> Vec3 {
+        Vec3::new(self.0[0][lane], self.0[1][lane], self.0[2][lane])
+    }
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, vector: Vec3) {
+        for (row, x) in self.0.iter_mut().zip(vector.to_array()) {
+            row[lane] = x;
+        }
+    }
+
+    #[inline(always)]
+    fn from_fn(vector: impl Fn(usize) -> Vec3) -> Self {
+        let mut row = Self::ZERO;
+        for lane in 0..LANES {
+            row.set(lane, vector(lane));
+        }
+        row
+    }
+}
+
+/// Memory that [`untwisted_normals`] uses again from call to call.
+#[derive(Clone, Debug, Default)]
+pub struct FrameScratch {
+    points: Vec<Row>,
+    normals: Vec<Row>,
+}
+
+/// Writes a unit normal for each vertex of many Catmull-Rom curves, such that their
+/// frames turn about them as little as possible: [`catmull_rom::tangents`] and
+/// [`double_reflection`](crate::double_reflection) of each curve, to the bit.
+///
+/// Curve `i` has the vertices `offsets[i]..offsets[i + 1]` of `points`, and
+/// `first(i)` is where its first normal should point. `normals` has the length of
+/// `points`, and `offsets` one entry more than there are curves; it ascends and ends
+/// at that length at most.
+///
+/// ```
+/// use pelage_curves::{FrameScratch, Vec3, untwisted_normals};
+///
+/// let points = [Vec3::ZERO, Vec3::Z, Vec3::ZERO, Vec3::X, Vec3::ONE];
+/// let mut normals = [Vec3::ZERO; 5];
+/// untwisted_normals(&points, &[0, 2, 5], |_| Vec3::Y, &mut FrameScratch::default(), &mut normals);
+/// assert_eq!(normals[..3], [Vec3::Y; 3]);
+/// ```
+pub fn untwisted_normals(
+    points: &[Vec3],
+    offsets: &[u32],
+    first: impl Fn(usize) -> Vec3,
+    scratch: &mut FrameScratch,
+    normals: &mut [Vec3],
+) {
+    dispatch!(Level::new(), simd => {
+        let _ = simd;
+        let curves = offsets.len().saturating_sub(1);
+        for start in (0..curves).step_by(LANES) {
+            // A block that is not full has its last curve several times.
+            let curve = |lane: usize| (start + lane).min(curves - 1);
+            let ranges: [Range<usize>; LANES] = std::array::from_fn(|lane| {
+                offsets[curve(lane)] as usize..offsets[curve(lane) + 1] as usize
+            });
+            scratch.load(points, &ranges);
+            scratch.walk(Row::from_fn(|lane| first(curve(lane))));
+            scratch.store(&ranges[..LANES.min(curves - start)], normals);
+        }
+    });
+}
+
+impl FrameScratch {
+    /// Puts curves side by side. Shorter ones repeat their last vertex, which leaves the
+    /// frames before it as they are: the ends of a curve are duplicated anyway.
+    #[inline(always)]
+    fn load(&mut self, points: &[Vec3], ranges: &[Range<usize>; LANES]) {
+        let longest = ranges.iter().map(Range::len).max().unwrap_or(0);
+        self.points.clear();
+        self.points.resize(longest, Row::ZERO);
+        self.normals.resize(longest, Row::ZERO);
+        for (lane, range) in ranges.iter().enumerate() {
+            let curve = &points[range.clone()];
+            let Some(&last) = curve.last() else {
+                continue;
+            };
+            let (own, rest) = self.points.split_at_mut(curve.len());
+            for (row, &point) in own.iter_mut().zip(curve) {
+                row.set(lane, point);
+            }
+            rest.iter_mut().for_each(|row| row.set(lane, last));
+        }
+    }
+
+    #[inline(always)]
+    fn walk(&mut self, first: Row) {
+        let last = self.points.len().saturating_sub(1);
+        let mut tangent = Row::from_fn(|_| Vec3::Z);
+        let mut normal = first;
+        for i in 0..self.points.len() {
+            let before = &self.points[i.saturating_sub(1)];
+            let (here, after) = (&self.points[i], &self.points[(i + 1).min(last)]);
+            let next = Row::from_fn(|k| {
+                catmull_rom::tangent(before.get(k), here.get(k), after.get(k), tangent.get(k))
+            });
+            normal = match i {
+                0 => Row::from_fn(|k| perpendicular_part(normal.get(k), next.get(k))),
+                _ => Row::from_fn(|k| {
+                    let step = here.get(k) - before.get(k);
+                    next_normal(step, tangent.get(k), next.get(k), normal.get(k))
+                }),
+            };
+            tangent = next;
+            self.normals[i] = normal;
+        }
+    }
+
+    #[inline(always)]
+    fn store(&self, ranges: &[Range<usize>], normals: &mut [Vec3]) {
+        for (lane, range) in ranges.iter().enumerate() {
+            for (normal, row) in normals[range.clone()].iter_mut().zip(&self.normals) {
+                *normal = row.get(lane);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::double_reflection;
+    use proptest::prelude::*;
+
+    /// Small integers: vertices that coincide and tangents that oppose are common.
+    fn curves() -> impl Strategy<Value = Vec<Vec<[i8; 3]>>> {
+        let point = prop::array::uniform3(-2i8..3);
+        prop::collection::vec(prop::collection::vec(point, 0..9), 0..40)
+    }
+
+    proptest! {
+        #[test]
+        fn many_curves_have_the_frames_of_each_alone(curves in curves(), first: [i8; 3]) {
+            let vector = |p: [i8; 3]| Vec3::from(p.map(f32::from));
+            let (mut points, mut offsets) = (Vec::new(), vec![0]);
+            for curve in &curves {
+                points.extend(curve.iter().map(|&p| vector(p)));
+                offsets.push(points.len() as u32);
+            }
+            let first = |i: usize| vector(first) + Vec3::X * i as f32;
+            let mut normals = vec![Vec3::ZERO; points.len()];
+            let scratch = &mut FrameScratch::default();
+            untwisted_normals(&points, &offsets, first, scratch, &mut normals);
+            for (i, ends) in offsets.windows(2).enumerate() {
+                let range = ends[0] as usize..ends[1] as usize;
+                let (mut tangents, mut alone) = (points.clone(), points.clone());
+                catmull_rom::tangents(&points[range.clone()], &mut tangents[range.clone()]);
+                let own = &mut alone[range.clone()];
+                double_reflection(&points[range.clone()], &tangents[range.clone()], first(i), own);
+                prop_assert_eq!(&normals[range.clone()], &alone[range]);
+            }
+        }
+    }
+}
