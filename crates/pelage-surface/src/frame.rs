@@ -106,7 +106,7 @@ impl Mesh {
 }
 
 #[inline]
-fn weigh([a, b, c]: [Vec3; 3], weights: [f32; 3]) -> Vec3 {
+pub(crate) fn weigh([a, b, c]: [Vec3; 3], weights: [f32; 3]) -> Vec3 {
     a * weights[0] + b * weights[1] + c * weights[2]
 }
 

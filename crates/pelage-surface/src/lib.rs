@@ -4,6 +4,7 @@
 mod blue_noise;
 mod bulk;
 mod closest;
+mod displacement;
 mod distribution;
 #[cfg(test)]
 mod fixture;
@@ -24,6 +25,7 @@ mod voxels;
 
 pub use blue_noise::BlueNoise;
 pub use closest::ClosestPoint;
+pub use displacement::Displacement;
 pub use distribution::{Distribution, Pick};
 pub use frame::{RootFrame, SurfacePoint};
 pub use image_map::{ImageMap, MapError, Wrap, linear_from_srgb, srgb_from_linear};
