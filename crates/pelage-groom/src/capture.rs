@@ -13,7 +13,6 @@ use crate::stages::scale;
 use crate::stages::weights::{Share, inverse_distance, turn};
 use pelage_surface::{RootFrame, SurfacePoint};
 use std::ops::Range;
-use std::time::Instant;
 
 /// Hairs that were left out, and why.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -73,43 +72,47 @@ impl Capture {
 }
 
 impl Plan {
-    /// Captures `hairs` into `capture`, which is emptied first.
+    /// Captures `hairs` into `capture`, which is emptied first. Hairs that have no root
+    /// (see [`RootPlan::rooted`](crate::RootPlan::rooted)) are left out.
     pub fn capture(&self, hairs: Range<u64>, capture: &mut Capture, clock: &mut Clock) {
-        let started = clock.start();
-        capture.hairs.clear();
-        capture.places.clear();
-        if let Some(sampler) = &self.sampler {
-            sampler.roots(hairs.clone(), &mut capture.places);
-            capture.hairs.extend(hairs);
-        }
-        self.finish(capture, clock, started);
+        let hairs = self.roots.rooted(hairs);
+        self.capture_placed(capture, clock, |all, places| {
+            self.roots.places(hairs.clone(), places);
+            all.extend(hairs);
+        });
     }
 
-    /// Captures the hairs listed, in that order: those of a voxel, say.
+    /// Captures the hairs listed, in that order: those of a voxel, say. Otherwise as
+    /// [`capture`](Self::capture).
     pub fn capture_listed(&self, hairs: &[u64], capture: &mut Capture, clock: &mut Clock) {
-        let started = clock.start();
-        capture.hairs.clear();
-        capture.places.clear();
-        if let Some(sampler) = &self.sampler {
-            let places = hairs.iter().map(|&hair| sampler.root(hair));
-            capture.places.extend(places);
-            capture.hairs.extend(hairs);
-        }
-        self.finish(capture, clock, started);
+        self.capture_placed(capture, clock, |all, places| {
+            for &hair in hairs {
+                let one = self.roots.rooted(hair..hair.saturating_add(1));
+                self.roots.places(one.clone(), places);
+                all.extend(one);
+            }
+        });
     }
 
-    /// Captures the hairs whose roots have been drawn.
-    fn finish(&self, capture: &mut Capture, clock: &mut Clock, started: Instant) {
+    /// Captures the hairs that `place` appends, with their places.
+    fn capture_placed(
+        &self,
+        capture: &mut Capture,
+        clock: &mut Clock,
+        place: impl FnOnce(&mut Vec<u64>, &mut Vec<SurfacePoint>),
+    ) {
+        let started = clock.start();
+        let (rest, groups) = (&self.roots.rest, &self.roots.groups);
+        capture.hairs.clear();
+        capture.places.clear();
+        place(&mut capture.hairs, &mut capture.places);
         let hairs = capture.hairs.iter().zip(&capture.places);
         capture.roots.clear();
         capture
             .roots
-            .extend(hairs.map(|(&hair, &place)| root(hair, place, &self.rest, &self.groups)));
+            .extend(hairs.map(|(&hair, &place)| root(hair, place, rest, groups)));
         // By itself, so that the loads of many triangles overlap.
-        let frames = capture
-            .roots
-            .iter()
-            .map(|root| self.rest.frame(&root.place));
+        let frames = capture.places.iter().map(|place| rest.frame(place));
         capture.frames.clear();
         capture.frames.extend(frames);
         capture.dropped = Dropped::default();
@@ -142,7 +145,6 @@ impl Plan {
                 capture.dropped.without_guides += 1;
                 continue;
             };
-            capture.near.clear();
             guides.locator.query(root.rest, &mut capture.near);
             match self.method {
                 Method::Nearest => {

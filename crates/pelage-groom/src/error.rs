@@ -99,6 +99,17 @@ pub enum PlanError {
         /// How many are allowed.
         limit: u32,
     },
+    /// More roots of blue noise than are kept in memory.
+    #[error(
+        "{found} hairs; blue noise is kept in memory and has at most {limit}, \
+        roots.pattern = \"stratified\" any number"
+    )]
+    TooMuchBlueNoise {
+        /// Hairs asked for.
+        found: u64,
+        /// How many are allowed.
+        limit: u64,
+    },
     /// A map of groups that is no map of groups.
     #[error(
         "holds more than {limit} colours; groups need flat colours, \
@@ -118,6 +129,7 @@ impl PlanError {
             PlanError::Pose { .. } => "surface.posed",
             PlanError::NoUvs { key, .. } | PlanError::MapNotLoaded { key, .. } => key,
             PlanError::NegativeDensity { .. } => "roots.density",
+            PlanError::TooMuchBlueNoise { .. } => "hair.count",
             PlanError::NoGuides
             | PlanError::FarGuides { .. }
             | PlanError::GuideNotFinite { .. }

@@ -6,6 +6,7 @@
 use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::plan::Plan;
+use crate::stages::roots::Root;
 use crate::stages::{frames, interpolate, look, scale, world};
 use pelage_curves::{FrameScratch, Vec3};
 use pelage_strands::{StrandBuffer, StrandMeta};
@@ -42,13 +43,14 @@ impl Plan {
             posed,
             frames: side_by_side,
         } = scratch;
-        let frames = match pose {
-            None => &capture.frames,
-            Some(pose) => {
-                posed.clear();
-                posed.extend(capture.roots.iter().map(|root| pose.frame(&root.place)));
-                posed
-            }
+        let frames = if pose.is_none() && !self.roots.is_displaced() {
+            &capture.frames
+        } else {
+            let surface = pose.unwrap_or(&self.roots.rest);
+            let frame = |root: &Root| self.roots.frame(surface, &root.place, root.uv);
+            posed.clear();
+            posed.extend(capture.roots.iter().map(frame));
+            posed
         };
         to_world(frames, local, out);
         let started = clock.stop(Stage::World, started);

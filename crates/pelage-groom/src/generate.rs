@@ -3,7 +3,7 @@
 use crate::capture::{Capture, Dropped};
 use crate::clock::{Clock, Stage};
 use crate::evaluate::Scratch;
-use crate::in_order::in_order;
+use crate::in_order::{Chunks, in_order};
 use crate::plan::Plan;
 use pelage_strands::{Amount, Sink, SinkError, StrandBuffer, StreamInfo};
 use pelage_surface::Mesh;
@@ -78,12 +78,9 @@ pub fn generate(
 ) -> Result<Report, GenerateError> {
     let mut report = Report::default();
     let frames = request.info.frames.len().max(1);
-    let hairs = if plan.count() == 0 {
-        0..0
-    } else {
-        request.hairs.clone()
-    };
+    let hairs = plan.roots().rooted(request.hairs.clone());
     let total = hairs.end.saturating_sub(hairs.start);
+    let each = (CHUNK_VERTICES / plan.most_vertices()).clamp(1, CHUNK);
     sink.begin(&StreamInfo {
         at_most: Some(Amount {
             strands: total,
@@ -97,10 +94,9 @@ pub fn generate(
         sink.begin_frame(index)?;
         let mut run = Run {
             plan,
-            hairs: hairs.clone(),
-            chunk: (CHUNK_VERTICES / plan.most_vertices()).clamp(1, CHUNK),
+            chunks: Chunks::new(hairs.clone(), each),
             pose: pose.as_deref(),
-            before: total * index as u64,
+            done: total * index as u64,
             report: Report {
                 clock: std::mem::take(&mut report.clock),
                 ..Report::default()
@@ -148,40 +144,26 @@ impl Worker {
 
 struct Run<'a> {
     plan: &'a Plan,
-    hairs: Range<u64>,
-    /// Hairs in a chunk.
-    chunk: u64,
+    chunks: Chunks,
     pose: Option<&'a Mesh>,
-    /// Hairs of the frames before.
-    before: u64,
+    /// Hairs taken, with those of the frames before.
+    done: u64,
     report: Report,
 }
 
 impl Run<'_> {
-    fn chunks(&self) -> u64 {
-        self.hairs
-            .end
-            .saturating_sub(self.hairs.start)
-            .div_ceil(self.chunk)
-    }
-
-    fn hairs_of(hairs: &Range<u64>, each: u64, number: u64) -> Range<u64> {
-        let start = hairs.start + number * each;
-        start..(start + each).min(hairs.end)
-    }
-
     fn run(
         &mut self,
         threads: usize,
         sink: &mut dyn Sink,
         progress: &mut dyn FnMut(u64) -> bool,
     ) -> Result<(), GenerateError> {
-        let (plan, pose, hairs, each) = (self.plan, self.pose, self.hairs.clone(), self.chunk);
+        let (plan, pose, chunks) = (self.plan, self.pose, self.chunks.clone());
         in_order(
-            self.chunks(),
+            chunks.count(),
             threads,
             |worker: &mut Worker, number, chunk: &mut Chunk| {
-                worker.make(plan, Self::hairs_of(&hairs, each, number), pose, chunk);
+                worker.make(plan, chunks.get(number), pose, chunk);
             },
             |number, chunk| self.take(number, chunk, sink, progress),
         )
@@ -203,8 +185,9 @@ impl Run<'_> {
         self.report.strands += chunk.strands.len() as u64;
         self.report.vertices += chunk.strands.points.len() as u64;
         self.report.dropped.add(&chunk.dropped);
-        let done = Self::hairs_of(&self.hairs, self.chunk, number).end - self.hairs.start;
-        if progress(self.before + done) {
+        let hairs = self.chunks.get(number);
+        self.done += hairs.end - hairs.start;
+        if progress(self.done) {
             Ok(())
         } else {
             Err(GenerateError::Stopped)

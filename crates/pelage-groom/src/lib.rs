@@ -26,6 +26,7 @@ pub mod random;
 pub mod recipe;
 mod root_plan;
 pub mod stages;
+mod write_roots;
 
 pub use capture::{Capture, Dropped};
 pub use clock::{Clock, Stage};
@@ -38,4 +39,5 @@ pub use guide::{FarGuide, Guide};
 pub use locator::{Locator, Near};
 pub use maps::{ColorField, Images, ScalarField};
 pub use plan::Plan;
-pub use root_plan::{RootPlan, write_roots};
+pub use root_plan::RootPlan;
+pub use write_roots::write_roots;

@@ -46,7 +46,6 @@ impl Near {
 /// Finds the nearest of a set of guide roots.
 #[derive(Clone, Debug)]
 pub struct Locator {
-    guides: usize,
     nearest: usize,
     low: Vec3,
     cells_a_unit: f32,
@@ -80,7 +79,6 @@ impl Locator {
             guide: guide as u32,
         };
         let mut locator = Self {
-            guides: roots.len(),
             nearest,
             low,
             cells_a_unit: 1.0 / side,
@@ -95,12 +93,14 @@ impl Locator {
 
     /// How many guides a query gives.
     pub fn nearest(&self) -> usize {
-        self.nearest.min(self.guides)
+        self.nearest.min(self.all.len())
     }
 
-    /// Appends the guides nearest to `point`, nearest first.
+    /// Puts the guides nearest to `point` into `found`, which is emptied first; nearest
+    /// first.
     #[inline]
     pub fn query(&self, point: Vec3, found: &mut Vec<Near>) {
+        found.clear();
         let cell = self.cell(point);
         let list = &self.candidates[self.starts[cell] as usize..self.starts[cell + 1] as usize];
         // Rounding may put a point into a cell the surface only touches, and distances

@@ -7,7 +7,7 @@
 use crate::PlanError;
 use crate::recipe::{Blend, Channel, ColorProperty, MapSpace, MapUse, ScalarProperty};
 use pelage_curves::Vec2;
-use pelage_surface::{ImageMap, Wrap, linear_from_srgb};
+use pelage_surface::{Displacement, ImageMap, Wrap, linear_from_srgb};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -29,6 +29,37 @@ impl ScalarField {
         match &self.map {
             None => self.value,
             Some((map, wrap)) => self.value * map.sample(uv.x, uv.y, 0, *wrap),
+        }
+    }
+
+    /// Whether the value is 0 everywhere because the recipe says 0.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.value == 0.0
+    }
+
+    /// The value at `uv` as a height of the surface there, with its slopes: differences
+    /// over one texel around `uv`. They are continuous, as the slopes of the bilinear
+    /// value are not, and lie where the value does, as the document's forward difference
+    /// (004, 2.2.3) does not.
+    pub(crate) fn displacement(&self, uv: Vec2) -> Displacement {
+        let Some((map, _)) = &self.map else {
+            return Displacement {
+                height: self.value,
+                slope: Vec2::ZERO,
+            };
+        };
+        let across = |half: Vec2| {
+            let (before, after) = (uv - half, uv + half);
+            // Not 2 · half: far from 0, coordinates are coarse.
+            match (after - before).length() {
+                0.0 => 0.0,
+                step => (self.at(after) - self.at(before)) / step,
+            }
+        };
+        let [half_u, half_v] = [map.width(), map.height()].map(|n| 0.5 / n as f32);
+        Displacement {
+            height: self.at(uv),
+            slope: Vec2::new(across(Vec2::X * half_u), across(Vec2::Y * half_v)),
         }
     }
 

@@ -6,25 +6,21 @@ use crate::groups::Groups;
 use crate::guide::{self, Guide};
 use crate::guide_set::GuideSet;
 use crate::maps::{ColorField, FieldMaker, ScalarField};
-use crate::recipe::{self, GuideSource, Method, Recipe, Segments};
-use crate::{PlanError, RootPlan, grow};
-use pelage_surface::{Density, Mesh, PolygonMesh, RootSampler, VoxelRoots, Wrap};
+use crate::recipe::{self, GuideSource, Method, Recipe};
+use crate::{PlanError, RootPlan, grow, root_plan};
+use pelage_surface::Mesh;
 
 /// A groom compiled: everything that can fail has.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    pub(crate) rest: Mesh,
-    pub(crate) sampler: Option<RootSampler>,
-    pub(crate) groups: Groups,
+    pub(crate) roots: RootPlan,
     pub(crate) guides: Vec<GuideSet>,
     pub(crate) method: Method,
     pub(crate) wanted: usize,
     pub(crate) fields: Fields,
     pub(crate) seed: u64,
     pub(crate) normals: bool,
-    count: u64,
     guide_count: usize,
-    notes: Vec<String>,
 }
 
 /// The properties that are read at each root.
@@ -42,42 +38,33 @@ impl Plan {
     /// Compiles a groom. Every error a user can make in it ends here.
     pub fn new(groom: Groom) -> Result<Self, PlanError> {
         let recipe = &groom.recipe;
-        let rest = rest(groom.mesh, groom.keep_file_normals)?;
+        let rest = root_plan::rest(groom.mesh, groom.keep_file_normals)?;
         let mut maker = FieldMaker::new(&groom.images, rest.has_uvs());
-        let roots = RootPlan::on(rest, recipe, &mut maker)?;
-        let (count, notes) = (roots.count(), roots.notes().to_vec());
-        let RootPlan {
-            rest,
-            sampler,
-            mut groups,
-            ..
-        } = roots;
+        let mut roots = RootPlan::on(rest, recipe, &mut maker)?;
         let fields = Fields::new(recipe, &mut maker)?;
-        let all = match (&sampler, recipe.guides.source()) {
+        let rest = &roots.rest;
+        let all = match (roots.sampler(), recipe.guides.source()) {
             (_, Some(GuideSource::Curves(_))) => {
-                guide::bind(&rest, &groom.guides, tolerance(recipe, &rest))?
+                guide::bind(rest, &groom.guides, tolerance(recipe, rest))?
             }
             (Some(sampler), Some(GuideSource::Grow(rule))) => {
-                grow::grow(rule, &rest, sampler, &groom.images)?
+                grow::grow(rule, rest, sampler, &groom.images)?
             }
             _ => Vec::new(),
         };
         if recipe.groups.segments.is_none() {
-            groups = groups.with_segments(most_segments(&all));
+            roots.groups = roots.groups.with_segments(most_segments(&all));
         }
+        refuse_too_long(&roots.groups)?;
         let mut plan = Self {
-            groups: refuse_too_long(groups)?,
+            roots,
             guides: Vec::new(),
             method: recipe.interpolation.method,
             wanted: recipe.interpolation.guides as usize,
             fields,
             seed: recipe.hair.seed,
             normals: recipe.output.normals,
-            count,
             guide_count: all.len(),
-            notes,
-            rest,
-            sampler,
         };
         plan.share_out(&all)?;
         Ok(plan)
@@ -85,21 +72,19 @@ impl Plan {
 
     /// Gives each group its guides; a group whose hairs would have none is an error.
     fn share_out(&mut self, all: &[Guide]) -> Result<(), PlanError> {
-        let Some(sampler) = &self.sampler else {
+        let (groups, rest) = (&self.roots.groups, &self.roots.rest);
+        let Some(sampler) = self.roots.sampler() else {
             return Ok(());
         };
-        if self.count > 0 && all.is_empty() {
+        if self.count() > 0 && all.is_empty() {
             return Err(PlanError::NoGuides);
         }
         let nearest = match self.method {
             Method::Nearest => 1,
             _ => self.wanted + 1,
         };
-        let group_of: Vec<u32> = all
-            .iter()
-            .map(|g| self.groups.at(self.rest.uv(&g.root)))
-            .collect();
-        for (index, group) in self.groups.all().iter().enumerate() {
+        let group_of: Vec<u32> = all.iter().map(|g| groups.at(rest.uv(&g.root))).collect();
+        for (index, group) in groups.all().iter().enumerate() {
             let mine: Vec<&Guide> = all
                 .iter()
                 .zip(&group_of)
@@ -107,63 +92,45 @@ impl Plan {
                 .map(|(guide, _)| guide)
                 .collect();
             self.guides
-                .push(GuideSet::new(&self.rest, &mine, group.segments, nearest));
+                .push(GuideSet::new(rest, &mine, group.segments, nearest));
         }
         let lonely = sampler
             .piece_centres()
-            .map(|place| self.groups.at(self.rest.uv(&place)))
+            .map(|place| groups.at(rest.uv(&place)))
             .find(|&group| self.guides[group as usize].is_empty());
         match lonely {
-            Some(group) if self.count > 0 => Err(PlanError::GroupWithoutGuides {
+            Some(group) if self.count() > 0 => Err(PlanError::GroupWithoutGuides {
                 group,
-                color: self.groups.all()[group as usize].name(),
+                color: groups.all()[group as usize].name(),
             }),
             _ => Ok(()),
         }
     }
 
-    /// Things worth telling that are no errors, in plain words.
-    pub fn notes(&self) -> &[String] {
-        &self.notes
+    /// Where the hairs stand.
+    pub fn roots(&self) -> &RootPlan {
+        &self.roots
     }
 
     /// Hairs the recipe asks for; 0 where no hair can grow.
     pub fn count(&self) -> u64 {
-        self.count
+        self.roots.count()
     }
 
     /// The surface at rest.
     pub fn rest(&self) -> &Mesh {
-        &self.rest
+        self.roots.rest()
     }
 
     /// Vertices of the longest hairs.
     pub(crate) fn most_vertices(&self) -> u64 {
-        let segments = self.groups.all().iter().map(|g| g.segments).max();
+        let segments = self.roots.groups.all().iter().map(|g| g.segments).max();
         segments.unwrap_or(1) as u64 + 1
     }
 
     /// Number of guides.
     pub fn guide_count(&self) -> usize {
         self.guide_count
-    }
-
-    /// The groups of the groom.
-    pub fn groups(&self) -> &Groups {
-        &self.groups
-    }
-
-    /// Places on the surface as a sampler of roots; `None` where no hair can grow.
-    pub fn sampler(&self) -> Option<&RootSampler> {
-        self.sampler.as_ref()
-    }
-
-    /// The hairs of each cell of a grid over the rest bounds (architecture.md, law 3);
-    /// `None` where no hair can grow.
-    pub fn voxels(&self, resolution: [u32; 3]) -> Option<VoxelRoots<'_>> {
-        self.sampler
-            .as_ref()
-            .map(|s| VoxelRoots::new(s, &self.rest, resolution))
     }
 }
 
@@ -194,52 +161,12 @@ impl Fields {
     }
 }
 
-/// The mesh at rest, ready to grow hair.
-pub(crate) fn rest(mut polygons: PolygonMesh, keep_file_normals: bool) -> Result<Mesh, PlanError> {
-    if !keep_file_normals {
-        polygons.corner_normals.clear();
-    }
-    let rest = Mesh::new(polygons)?;
-    if rest.degenerate_triangles() == rest.triangles().len() {
-        return Err(PlanError::NoSurface);
-    }
-    Ok(rest)
-}
-
-/// Draws roots on `rest` by `density`; `None` where no hair can grow.
-pub(crate) fn sampler(
-    density: &ScalarField,
-    rest: &Mesh,
-    seed: u64,
-) -> Result<Option<RootSampler>, PlanError> {
-    let (value, map) = density.parts();
-    if let Some((map, _)) = map {
-        refuse_negative(map)?;
-    }
-    let density = Density {
-        value,
-        map: map.map(|(map, wrap)| (map, 0, wrap)),
-    };
-    Ok(RootSampler::new(rest, &density, seed))
-}
-
-fn refuse_negative(map: &pelage_surface::ImageMap) -> Result<(), PlanError> {
-    match map.texels().iter().position(|t| *t < 0.0) {
-        None => Ok(()),
-        Some(texel) => Err(PlanError::NegativeDensity {
-            x: (texel % map.width() as usize) as u32,
-            y: (texel / map.width() as usize) as u32,
-            value: map.texels()[texel],
-        }),
-    }
-}
-
 /// Most segments of a hair: what the formats that count them in 16 bits can hold.
 const MOST_SEGMENTS: u32 = u16::MAX as u32;
 
-fn refuse_too_long(groups: Groups) -> Result<Groups, PlanError> {
+fn refuse_too_long(groups: &Groups) -> Result<(), PlanError> {
     match groups.all().iter().find(|g| g.segments > MOST_SEGMENTS) {
-        None => Ok(groups),
+        None => Ok(()),
         Some(group) => Err(PlanError::TooManySegments {
             found: group.segments,
             limit: MOST_SEGMENTS,
@@ -260,23 +187,4 @@ fn tolerance(recipe: &Recipe, rest: &Mesh) -> f32 {
 fn most_segments(guides: &[Guide]) -> u32 {
     let segments = guides.iter().map(|g| g.local.len().saturating_sub(1));
     segments.max().unwrap_or(1) as u32
-}
-
-/// Groups and their segments, 1 where the recipe leaves them to the guides.
-pub(crate) fn groups(recipe: &Recipe, maker: &FieldMaker) -> Result<Groups, PlanError> {
-    let Some(used) = &recipe.groups.map else {
-        return Ok(Groups::single(match recipe.groups.segments {
-            Some(Segments::All(n)) => n,
-            _ => 1,
-        }));
-    };
-    let map = maker.image("groups.map", used)?;
-    match &recipe.groups.segments {
-        Some(Segments::ByColor(listed)) => {
-            let listed: Vec<_> = listed.iter().map(|(&color, &n)| (color, n)).collect();
-            Ok(Groups::listed(&map, Wrap::Repeat, &listed))
-        }
-        Some(Segments::All(n)) => Groups::found(&map, Wrap::Repeat, *n),
-        None => Groups::found(&map, Wrap::Repeat, 1),
-    }
 }

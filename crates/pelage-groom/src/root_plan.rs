@@ -4,29 +4,33 @@
 //! themselves are those of the hairs.
 
 use crate::PlanError;
-use crate::generate::{GenerateError, Request};
 use crate::groom::Groom;
 use crate::groups::Groups;
-use crate::in_order::in_order;
 use crate::maps::{FieldMaker, ScalarField};
-use crate::plan;
-use crate::recipe::Recipe;
-use pelage_strands::{Sink, StrandBuffer};
-use pelage_surface::{Mesh, RootSampler, SurfacePoint};
+use crate::recipe::{Pattern, Recipe, Segments};
+use pelage_curves::Vec2;
+use pelage_surface::{
+    BlueNoise, Density, ImageMap, Mesh, PolygonMesh, RootFrame, RootSampler, Spread, SurfacePoint,
+    VoxelRoots, Wrap,
+};
 use std::ops::Range;
 
-/// Roots in a chunk, a power of two: drawing them is fastest in large aligned blocks,
-/// and a chunk (some 5 MB) should not take much memory.
-const BLOCK: u64 = 1 << 16;
+/// Most roots of blue noise, which is kept in memory: 16 bytes a root, and some 150
+/// while it is made.
+const MOST_BLUE_NOISE: u64 = 100_000_000;
 
 /// Where the hairs of a groom stand: its surface, density and groups, compiled.
 #[derive(Clone, Debug)]
 pub struct RootPlan {
     pub(crate) rest: Mesh,
-    pub(crate) sampler: Option<RootSampler>,
+    sampler: Option<RootSampler>,
+    /// Takes the sampler's place as the source of roots.
+    blue_noise: Option<BlueNoise>,
     /// Where the recipe leaves their segments to the guides, they have one.
     pub(crate) groups: Groups,
     density: ScalarField,
+    /// `None` where roots are not displaced.
+    displacement: Option<ScalarField>,
     count: u64,
     notes: Vec<String>,
 }
@@ -35,7 +39,7 @@ impl RootPlan {
     /// Compiles what `groom` says of roots. Its guides are not looked at, and of its
     /// images only those of `roots` and `groups` must be there.
     pub fn new(groom: Groom) -> Result<Self, PlanError> {
-        let rest = plan::rest(groom.mesh, groom.keep_file_normals)?;
+        let rest = rest(groom.mesh, groom.keep_file_normals)?;
         let mut maker = FieldMaker::new(&groom.images, rest.has_uvs());
         Self::on(rest, &groom.recipe, &mut maker)
     }
@@ -46,22 +50,18 @@ impl RootPlan {
         maker: &mut FieldMaker,
     ) -> Result<Self, PlanError> {
         let density = maker.scalar("roots.density", &recipe.roots.density)?;
-        let sampler = plan::sampler(&density, &rest, recipe.hair.seed)?;
-        let mut notes = Vec::new();
-        let degenerate = rest.degenerate_triangles();
-        if degenerate > 0 {
-            notes.push(format!("{degenerate} degenerate triangles grow no hair"));
-        }
-        if sampler.is_none() {
-            notes.push("roots.density is 0 on the whole surface: no hair can grow".into());
-        }
+        let displacement = maker.scalar("roots.displacement", &recipe.roots.displacement)?;
+        let sampler = sampler(&density, &rest, recipe)?;
+        let count = sampler.as_ref().map_or(0, |_| recipe.hair.count);
         Ok(Self {
-            groups: plan::groups(recipe, maker)?,
-            count: sampler.as_ref().map_or(0, |_| recipe.hair.count),
+            notes: notes(&rest, sampler.is_some()),
+            groups: groups(recipe, maker)?,
+            blue_noise: blue_noise(recipe, &rest, sampler.as_ref())?,
+            displacement: Some(displacement).filter(|field| !field.is_zero()),
             rest,
             sampler,
             density,
-            notes,
+            count,
         })
     }
 
@@ -75,7 +75,12 @@ impl RootPlan {
         &self.rest
     }
 
-    /// Draws roots; `None` where no hair can grow.
+    /// The groups that hairs fall in.
+    pub fn groups(&self) -> &Groups {
+        &self.groups
+    }
+
+    /// Draws roots by the density; `None` where no hair can grow.
     pub fn sampler(&self) -> Option<&RootSampler> {
         self.sampler.as_ref()
     }
@@ -90,115 +95,139 @@ impl RootPlan {
         &self.notes
     }
 
-    /// Writes the roots of `hairs` into `out`, which is emptied first: strands of one
-    /// vertex on `pose` (or the rest pose) with the surface's normal.
-    fn write(
-        &self,
-        hairs: Range<u64>,
-        pose: Option<&Mesh>,
-        places: &mut Vec<SurfacePoint>,
-        out: &mut StrandBuffer,
-    ) {
-        out.clear();
-        places.clear();
-        let Some(sampler) = &self.sampler else {
-            return;
+    /// Those of `hairs` that have a root: none where no hair can grow, and those of blue
+    /// noise that were made with the plan, [`count`](Self::count) of them.
+    pub fn rooted(&self, hairs: Range<u64>) -> Range<u64> {
+        let end = match (&self.sampler, &self.blue_noise) {
+            (None, _) => 0,
+            (_, Some(made)) => made.len() as u64,
+            (_, None) => u64::MAX,
         };
-        sampler.roots(hairs.clone(), places);
-        let (rest, posed) = (&self.rest, pose.unwrap_or(&self.rest));
-        // Array by array: neighbours in `places` lie far apart on the surface, and so
-        // only one array of the mesh at a time competes for the cache.
-        out.offsets.extend(1..=places.len() as u32);
-        let point = |place| posed.position(place).to_array();
-        out.points.extend(places.iter().map(point));
-        let normal = |place| posed.normal(place).to_array();
-        out.normals.extend(places.iter().map(normal));
-        out.hair_id.extend(hairs);
-        let uv = |place| rest.uv(place).to_array();
-        out.root_uv.extend(places.iter().map(uv));
-        let group = |&uv: &[f32; 2]| self.groups.at(uv.into());
-        out.group.extend(out.root_uv.iter().map(group));
-        out.triangle.extend(places.iter().map(|p| p.triangle));
-        out.barycentric.extend(places.iter().map(|p| p.barycentric));
-        let at_rest = |place| rest.position(place).to_array();
-        out.root_rest.extend(places.iter().map(at_rest));
+        hairs.start.min(end)..hairs.end.min(end)
     }
-}
 
-/// Writes the roots of the hairs of `request` into `sink`, as one frame on `pose` (the
-/// rest pose where it is `None`), and gives their number.
-///
-/// Roots are strands of one vertex: `points` on the posed surface, `normals` of the
-/// surface, and what else strands tell of their roots. `progress` is called as by
-/// [`generate`](crate::generate).
-pub fn write_roots(
-    plan: &RootPlan,
-    request: &Request,
-    pose: Option<&Mesh>,
-    sink: &mut dyn Sink,
-    progress: &mut dyn FnMut(u64) -> bool,
-) -> Result<u64, GenerateError> {
-    sink.begin(&request.info)?;
-    sink.begin_frame(0)?;
-    let hairs = match plan.sampler {
-        Some(_) => request.hairs.clone(),
-        None => 0..0,
-    };
-    let mut done = 0;
-    in_order(
-        blocks(&hairs),
-        request.threads,
-        |places, number, chunk| plan.write(block(&hairs, number), pose, places, chunk),
-        |_, chunk: &StrandBuffer| {
-            sink.write(chunk)?;
-            done += chunk.len() as u64;
-            match progress(done) {
-                true => Ok(()),
-                false => Err(GenerateError::Stopped),
-            }
-        },
-    )?;
-    sink.end_frame()?;
-    sink.finish()?;
-    Ok(done)
-}
-
-/// Number of aligned blocks that `hairs` touch.
-fn blocks(hairs: &Range<u64>) -> u64 {
-    if hairs.is_empty() {
-        return 0;
-    }
-    (hairs.end - 1) / BLOCK - hairs.start / BLOCK + 1
-}
-
-/// What of `hairs` lies in the block `number` of those they touch.
-fn block(hairs: &Range<u64>, number: u64) -> Range<u64> {
-    let start = (hairs.start / BLOCK + number) * BLOCK;
-    start.max(hairs.start)..start.saturating_add(BLOCK).min(hairs.end)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn blocks_are_aligned_and_cover_the_hairs_once() {
-        for hairs in [
-            0..1,
-            0..BLOCK,
-            5..3 * BLOCK + 7,
-            BLOCK..BLOCK,
-            u64::MAX - 3..u64::MAX,
-        ] {
-            let mut next = hairs.start;
-            for number in 0..blocks(&hairs) {
-                let block = block(&hairs, number);
-                assert_eq!(block.start, next);
-                assert!(block.end > block.start && block.end - block.start <= BLOCK);
-                next = block.end;
-                assert!(next == hairs.end || next % BLOCK == 0);
-            }
-            assert_eq!(next, hairs.end);
+    /// Appends the places of `hairs`, all of which are [`rooted`](Self::rooted).
+    pub(crate) fn places(&self, hairs: Range<u64>, places: &mut Vec<SurfacePoint>) {
+        match (&self.blue_noise, &self.sampler) {
+            (Some(made), _) => made.roots(hairs, places),
+            (_, Some(sampler)) => sampler.roots(hairs, places),
+            (None, None) => {}
         }
+    }
+
+    /// Position and frame of a root on `surface`, the mesh at rest or posed, displaced as
+    /// the recipe says; `uv` are the texture coordinates of `place`.
+    pub(crate) fn frame(&self, surface: &Mesh, place: &SurfacePoint, uv: Vec2) -> RootFrame {
+        match &self.displacement {
+            None => surface.frame(place),
+            Some(field) => surface.displaced_frame(place, &field.displacement(uv)),
+        }
+    }
+
+    /// Whether roots stand off the surface.
+    pub(crate) fn is_displaced(&self) -> bool {
+        self.displacement.is_some()
+    }
+
+    /// The hairs of each cell of a grid over the rest bounds (architecture.md, law 3);
+    /// `None` where no hair can grow.
+    pub fn voxels(&self, resolution: [u32; 3]) -> Option<VoxelRoots<'_>> {
+        let sampler = self.sampler.as_ref()?;
+        Some(match &self.blue_noise {
+            None => VoxelRoots::new(sampler, &self.rest, resolution),
+            Some(made) => VoxelRoots::of_blue_noise(made, sampler, &self.rest, resolution),
+        })
+    }
+}
+
+/// The mesh at rest, ready to grow hair.
+pub(crate) fn rest(mut polygons: PolygonMesh, keep_file_normals: bool) -> Result<Mesh, PlanError> {
+    if !keep_file_normals {
+        polygons.corner_normals.clear();
+    }
+    let rest = Mesh::new(polygons)?;
+    if rest.degenerate_triangles() == rest.triangles().len() {
+        return Err(PlanError::NoSurface);
+    }
+    Ok(rest)
+}
+
+/// Draws roots on `rest` by `density`; `None` where no hair can grow.
+fn sampler(
+    density: &ScalarField,
+    rest: &Mesh,
+    recipe: &Recipe,
+) -> Result<Option<RootSampler>, PlanError> {
+    let (value, map) = density.parts();
+    if let Some((map, _)) = map {
+        refuse_negative(map)?;
+    }
+    let density = Density {
+        value,
+        map: map.map(|(map, wrap)| (map, 0, wrap)),
+    };
+    let spread = match recipe.roots.pattern {
+        Pattern::Random => Spread::Random,
+        Pattern::Stratified | Pattern::BlueNoise => Spread::Stratified,
+    };
+    let sampler = RootSampler::new(rest, &density, recipe.hair.seed);
+    Ok(sampler.map(|sampler| sampler.with_spread(spread)))
+}
+
+fn refuse_negative(map: &ImageMap) -> Result<(), PlanError> {
+    match map.texels().iter().position(|t| *t < 0.0) {
+        None => Ok(()),
+        Some(texel) => Err(PlanError::NegativeDensity {
+            x: (texel % map.width() as usize) as u32,
+            y: (texel / map.width() as usize) as u32,
+            value: map.texels()[texel],
+        }),
+    }
+}
+
+fn blue_noise(
+    recipe: &Recipe,
+    rest: &Mesh,
+    sampler: Option<&RootSampler>,
+) -> Result<Option<BlueNoise>, PlanError> {
+    let (Pattern::BlueNoise, Some(sampler)) = (recipe.roots.pattern, sampler) else {
+        return Ok(None);
+    };
+    let found = recipe.hair.count;
+    if found > MOST_BLUE_NOISE {
+        let limit = MOST_BLUE_NOISE;
+        return Err(PlanError::TooMuchBlueNoise { found, limit });
+    }
+    Ok(Some(BlueNoise::new(rest, sampler, found)))
+}
+
+fn notes(rest: &Mesh, grows: bool) -> Vec<String> {
+    let mut notes = Vec::new();
+    let degenerate = rest.degenerate_triangles();
+    if degenerate > 0 {
+        notes.push(format!("{degenerate} degenerate triangles grow no hair"));
+    }
+    if !grows {
+        notes.push("roots.density is 0 on the whole surface: no hair can grow".into());
+    }
+    notes
+}
+
+/// Groups and their segments, 1 where the recipe leaves them to the guides.
+fn groups(recipe: &Recipe, maker: &FieldMaker) -> Result<Groups, PlanError> {
+    let Some(used) = &recipe.groups.map else {
+        return Ok(Groups::single(match recipe.groups.segments {
+            Some(Segments::All(n)) => n,
+            _ => 1,
+        }));
+    };
+    let map = maker.image("groups.map", used)?;
+    match &recipe.groups.segments {
+        Some(Segments::ByColor(listed)) => {
+            let listed: Vec<_> = listed.iter().map(|(&color, &n)| (color, n)).collect();
+            Ok(Groups::listed(&map, Wrap::Repeat, &listed))
+        }
+        Some(Segments::All(n)) => Groups::found(&map, Wrap::Repeat, *n),
+        None => Groups::found(&map, Wrap::Repeat, 1),
     }
 }

@@ -113,7 +113,7 @@ pub use path::FilePath;
 pub use pelage_surface::Wrap;
 pub use property::{ColorProperty, Property, ScalarProperty};
 pub use ramp::Ramp;
-pub use roots::Roots;
+pub use roots::{Pattern, Roots};
 pub use schema::{schema, schema_text};
 pub use segments::Segments;
 pub use stages::Unbuilt;

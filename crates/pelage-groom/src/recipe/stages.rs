@@ -25,7 +25,6 @@ const fn waiting(key: &'static str, stage: &'static str) -> Waiting {
 /// Every key that switches a missing stage on. Keys that do nothing alone, such
 /// as `frizz.frequency` while both amounts are 0, need no line.
 const WAITING: &[Waiting] = &[
-    waiting("roots.displacement", "the displacement of roots"),
     Waiting {
         key: "interpolation.method",
         stage: "natural-neighbor interpolation",

@@ -20,6 +20,22 @@ pub struct Fixture {
     pub flat: bool,
     /// Texture turned by a quarter.
     pub turned_uvs: bool,
+    /// More lines of the recipe.
+    pub more: &'static str,
+}
+
+/// Displaced roots.
+pub const DISPLACED: &str = "roots.displacement = { value = 0.1, map = 'length.png' }";
+
+/// Every kind of roots.
+pub fn kinds() -> impl Iterator<Item = Fixture> {
+    let patterns = ["roots.pattern = 'random'", "roots.pattern = 'blue-noise'"];
+    ["", DISPLACED, patterns[0], patterns[1]]
+        .into_iter()
+        .map(|more| Fixture {
+            more,
+            ..Fixture::default()
+        })
 }
 
 impl Default for Fixture {
@@ -29,6 +45,7 @@ impl Default for Fixture {
             rings: 24,
             flat: false,
             turned_uvs: false,
+            more: "",
         }
     }
 }
@@ -89,11 +106,8 @@ impl Fixture {
             ",
             self.count
         );
-        let text = if self.flat {
-            text
-        } else {
-            format!("{maps}\n{text}")
-        };
+        let maps = if self.flat { "" } else { maps };
+        let text = format!("{}\n{maps}\n{text}", self.more);
         Recipe::parse(&text, Path::new("groom.toml")).unwrap()
     }
 

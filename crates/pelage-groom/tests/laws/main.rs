@@ -5,10 +5,12 @@
 
 mod fixture;
 
-use fixture::{Fixture, collect, moved, strands};
+use fixture::{Fixture, collect, kinds, moved, strands};
 use pelage_curves::{Vec3, catmull_rom};
-use pelage_groom::{Capture, Clock, Plan, Request, Scratch, generate};
-use pelage_strands::{Amount, BoundsSink, Sink, SinkError, StrandBuffer, StreamInfo, validate};
+use pelage_groom::{Capture, Clock, Plan, Request, Scratch, generate, write_roots};
+use pelage_strands::{
+    Amount, BoundsSink, Collect, Sink, SinkError, StrandBuffer, StreamInfo, validate,
+};
 
 fn plan() -> Plan {
     Fixture::default().plan()
@@ -16,21 +18,21 @@ fn plan() -> Plan {
 
 #[test]
 fn law_1_any_split_thread_count_and_chunk_gives_the_same_bits() {
-    let plan = plan();
-    let whole = collect(&plan, 0..5000, 1);
-    assert_eq!(whole.len(), 5000);
-    for threads in [2, 3, 7] {
-        assert!(
-            collect(&plan, 0..5000, threads) == whole,
-            "{threads} threads"
-        );
-    }
-    for cuts in [&[0, 5000][..], &[0, 1, 5000], &[0, 1023, 1025, 4096, 5000]] {
-        let mut joined = StrandBuffer::new();
-        for pair in cuts.windows(2) {
-            joined.append(&collect(&plan, pair[0]..pair[1], 2));
+    for fixture in kinds() {
+        let (plan, more) = (fixture.plan(), fixture.more);
+        let whole = collect(&plan, 0..5000, 1);
+        assert_eq!(whole.len(), 5000);
+        for threads in [2, 3, 7] {
+            let same = collect(&plan, 0..5000, threads) == whole;
+            assert!(same, "{threads} threads, {more}");
         }
-        assert!(joined == whole, "cuts at {cuts:?}");
+        for cuts in [&[0, 5000][..], &[0, 1, 5000], &[0, 1023, 1025, 4096, 5000]] {
+            let mut joined = StrandBuffer::new();
+            for pair in cuts.windows(2) {
+                joined.append(&collect(&plan, pair[0]..pair[1], 2));
+            }
+            assert!(joined == whole, "cuts at {cuts:?}, {more}");
+        }
     }
 }
 
@@ -54,72 +56,76 @@ fn law_1_the_same_bytes_on_every_machine() {
 
 #[test]
 fn law_2_more_hair_keeps_the_old_hair() {
-    let few = Fixture {
-        count: 1000,
-        ..Fixture::default()
+    for fixture in kinds() {
+        let more = fixture.more;
+        let few = Fixture {
+            count: 1000,
+            ..fixture
+        };
+        let many = Fixture {
+            count: 2000,
+            ..fixture
+        };
+        let few = collect(&few.plan(), 0..1000, 1);
+        let first = collect(&many.plan(), 0..1000, 1);
+        assert!(few == first, "{more}");
     }
-    .plan();
-    let many = Fixture {
-        count: 2000,
-        ..Fixture::default()
-    }
-    .plan();
-    let few = collect(&few, 0..1000, 1);
-    let first = collect(&many, 0..1000, 1);
-    assert!(few == first);
 }
 
 #[test]
 fn law_3_hairs_of_the_voxels_are_exactly_the_whole_and_bit_for_bit_the_same() {
-    let plan = plan();
-    let whole = collect(&plan, 0..3000, 1);
-    for resolution in [[1, 1, 1], [2, 3, 1], [4, 4, 4]] {
-        let voxels = plan.voxels(resolution).unwrap();
-        let mut seen = vec![false; 3000];
-        for cell in 0..voxels.cells() {
-            let hairs = voxels.hairs(cell, 3000);
-            let part = strands(&plan, &hairs, None);
-            for (i, &hair) in hairs.iter().enumerate() {
-                let hair = hair as usize;
-                assert!(
-                    !std::mem::replace(&mut seen[hair], true),
-                    "hair {hair} twice"
-                );
-                assert_eq!(part.strand_points(i), whole.strand_points(hair));
+    for fixture in kinds() {
+        let plan = fixture.plan();
+        let whole = collect(&plan, 0..3000, 1);
+        for resolution in [[1, 1, 1], [2, 3, 1], [4, 4, 4]] {
+            let voxels = plan.roots().voxels(resolution).unwrap();
+            let mut seen = vec![false; 3000];
+            for cell in 0..voxels.cells() {
+                let hairs = voxels.hairs(cell, 3000);
+                let part = strands(&plan, &hairs, None);
+                for (i, &hair) in hairs.iter().enumerate() {
+                    let hair = hair as usize;
+                    let twice = std::mem::replace(&mut seen[hair], true);
+                    assert!(!twice, "hair {hair} twice, {}", fixture.more);
+                    assert_eq!(part.strand_points(i), whole.strand_points(hair));
+                }
             }
+            assert!(seen.iter().all(|s| *s), "{resolution:?}, {}", fixture.more);
         }
-        assert!(seen.iter().all(|s| *s), "{resolution:?}");
     }
 }
 
 #[test]
 fn law_4_a_rigid_motion_moves_every_hair_rigidly() {
-    let fixture = Fixture::default();
-    let plan = fixture.plan();
-    let rest = collect(&plan, 0..1000, 1);
-    let (turn, shift) = fixture::motion();
-    let pose = plan
-        .rest()
-        .posed(&moved(&fixture.mesh(), turn, shift), true)
-        .unwrap();
-    let hairs: Vec<u64> = (0..1000).collect();
-    let posed = strands(&plan, &hairs, Some(&pose));
-    assert_eq!(rest.offsets, posed.offsets);
-    for (p, q) in rest.points.iter().zip(&posed.points) {
-        let expected = turn * Vec3::from(*p) + shift;
-        assert!(expected.distance(Vec3::from(*q)) < 2e-5, "{expected} {q:?}");
+    for fixture in kinds() {
+        let plan = fixture.plan();
+        let rest = collect(&plan, 0..1000, 1);
+        let (turn, shift) = fixture::motion();
+        let pose = plan
+            .rest()
+            .posed(&moved(&fixture.mesh(), turn, shift), true)
+            .unwrap();
+        let hairs: Vec<u64> = (0..1000).collect();
+        let posed = strands(&plan, &hairs, Some(&pose));
+        assert_eq!(rest.offsets, posed.offsets);
+        for (p, q) in rest.points.iter().zip(&posed.points) {
+            let expected = turn * Vec3::from(*p) + shift;
+            assert!(expected.distance(Vec3::from(*q)) < 4e-5, "{expected} {q:?}");
+        }
+        for (n, m) in rest.normals.iter().zip(&posed.normals) {
+            assert!((turn * Vec3::from(*n)).distance(Vec3::from(*m)) < 1e-3);
+        }
+        assert_eq!(rest.root_rest, posed.root_rest);
     }
-    for (n, m) in rest.normals.iter().zip(&posed.normals) {
-        assert!((turn * Vec3::from(*n)).distance(Vec3::from(*m)) < 1e-3);
-    }
-    assert_eq!(rest.root_rest, posed.root_rest);
 }
 
 #[test]
 fn law_5_a_plan_that_was_made_gives_sound_strands() {
-    let strands = collect(&plan(), 0..5000, 2);
-    let faults = validate(&strands);
-    assert!(faults.is_empty(), "{}", faults[0]);
+    for fixture in kinds() {
+        let strands = collect(&fixture.plan(), 0..5000, 2);
+        let faults = validate(&strands);
+        assert!(faults.is_empty(), "{}, {}", faults[0], fixture.more);
+    }
 }
 
 #[test]
@@ -173,7 +179,7 @@ fn law_8_roots_inside_one_small_triangle_do_not_fall_on_lines() {
         ..Fixture::default()
     };
     let plan = fixture.plan();
-    let sampler = plan.sampler().unwrap();
+    let sampler = plan.roots().sampler().unwrap();
     let place = sampler.place(1 << 63, 1 << 31);
     let mut weights: Vec<u32> = (0..4096u64)
         .map(|k| sampler.place((1 << 63) + (k << 31), 1 << 31))
@@ -189,6 +195,59 @@ fn law_8_roots_inside_one_small_triangle_do_not_fall_on_lines() {
         "{} of {drawn} differ",
         weights.len()
     );
+}
+
+#[test]
+fn roots_by_themselves_are_those_of_the_hairs() {
+    for fixture in kinds() {
+        let plan = fixture.plan();
+        let hairs = collect(&plan, 0..5000, 1);
+        let mut roots = Collect::default();
+        let request = Request {
+            hairs: 0..5000,
+            threads: 2,
+            info: StreamInfo::default(),
+        };
+        write_roots(plan.roots(), &request, None, &mut roots, &mut |_| true).unwrap();
+        let roots = roots.strands;
+        assert_eq!(roots.hair_id, hairs.hair_id);
+        assert_eq!(roots.barycentric, hairs.barycentric);
+        assert_eq!(roots.root_rest, hairs.root_rest);
+        for (i, root) in roots.points.iter().enumerate() {
+            let first = hairs.strand_points(i)[0];
+            assert!(Vec3::from(*root).distance(first) < 1e-6, "{}", fixture.more);
+        }
+    }
+}
+
+#[test]
+fn displaced_roots_stand_off_the_surface_by_the_map_and_the_rest_stays() {
+    let plain = plan();
+    let fixture = Fixture {
+        more: fixture::DISPLACED,
+        ..Fixture::default()
+    };
+    let (flat, bumpy) = (
+        collect(&plain, 0..2000, 1),
+        collect(&fixture.plan(), 0..2000, 1),
+    );
+    assert_eq!(flat.root_rest, bumpy.root_rest);
+    assert_eq!(flat.barycentric, bumpy.barycentric);
+    let mut turned = 0;
+    for i in 0..flat.len() {
+        let [from, to] = [&flat, &bumpy].map(|hair| hair.strand_points(i)[0]);
+        let u = flat.root_uv[i][0];
+        // The map rises with u by steps of 1/128, each 1/64 wide, from 0.5.
+        let inside = (0.02..0.98).contains(&u);
+        let expected = 0.1 * (0.5 + (u * 64.0 - 0.5) / 128.0);
+        assert!(!inside || (from.distance(to) - expected).abs() < 1e-5);
+        let [before, after] = [&flat, &bumpy].map(|hair| {
+            let points = hair.strand_points(i);
+            (points[1] - points[0]).normalize()
+        });
+        turned += usize::from(before.distance(after) > 1e-3);
+    }
+    assert!(turned > 1000, "{turned}");
 }
 
 #[test]

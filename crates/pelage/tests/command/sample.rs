@@ -208,3 +208,72 @@ fn mistakes_about_roots_are_answered_in_words() {
     ]);
     assert!(words.contains("raise -n"), "{words}");
 }
+
+/// The smallest distance between two points.
+fn closest(points: &[[f32; 3]]) -> f32 {
+    let between = |p: &[f32; 3], q: &[f32; 3]| (0..3).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum();
+    let squares = points
+        .iter()
+        .enumerate()
+        .flat_map(|(i, p)| points[..i].iter().map(move |q| between(p, q)));
+    squares.fold(f32::INFINITY, f32::min).sqrt()
+}
+
+#[test]
+fn patterns_spread_roots_the_better_the_more_they_cost() {
+    let folder = Folder::new();
+    pelage(&["init", &folder.path("ball"), "--example", "ball"]);
+    let [random, stratified, blue_noise] = ["random", "stratified", "blue-noise"].map(|pattern| {
+        folder.write(
+            "groom.toml",
+            &format!("surface.mesh = 'ball/ball.obj'\nguides.grow = {{ length = 1 }}\nroots.pattern = '{pattern}'\n"),
+        );
+        let roots = folder.roots("roots.npz", &["-n", "2000"]).curves;
+        let first = folder.roots("first.npz", &["-n", "700"]).curves;
+        assert_eq!(roots.points[..700], first.points[..], "{pattern}");
+        closest(&roots.points)
+    });
+    assert!(
+        random < stratified && 2.0 * stratified < blue_noise,
+        "{random} {stratified} {blue_noise}"
+    );
+    let words = fails(&[
+        "sample",
+        &folder.path("groom.toml"),
+        "-o",
+        "null",
+        "-n",
+        "1_000_000_000",
+    ]);
+    assert!(
+        words.contains("hair.count") && words.contains("stratified"),
+        "{words}"
+    );
+}
+
+#[test]
+fn displaced_roots_stand_off_the_surface_and_have_its_new_normals() {
+    let folder = Folder::with_ball();
+    let plain = folder.roots("plain.npz", &["-n", "500"]).curves;
+    folder.add_to_recipe(
+        "[roots]",
+        "displacement = { value = 0.2, map = \"length.png\" }",
+    );
+    let roots = folder.roots("roots.npz", &["-n", "500"]).curves;
+    assert_eq!(roots.root_rest, plain.root_rest);
+    let mut tilted = 0;
+    for i in 0..500 {
+        let off: Vec<f32> = (0..3)
+            .map(|k| roots.points[i][k] - plain.points[i][k])
+            .collect();
+        let height: f32 = (0..3).map(|k| off[k] * plain.normals[i][k]).sum();
+        assert!((0.0..=0.2001).contains(&height), "{height}");
+        assert!((0..3).all(|k| (off[k] - height * plain.normals[i][k]).abs() < 1e-5));
+        let cosine: f32 = (0..3)
+            .map(|k| roots.normals[i][k] * plain.normals[i][k])
+            .sum();
+        assert!(cosine > 0.0);
+        tilted += usize::from(cosine < 0.999);
+    }
+    assert!(tilted > 20, "{tilted}");
+}
