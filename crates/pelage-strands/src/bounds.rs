@@ -1,7 +1,7 @@
 //! The smallest box around strands, widths included.
 
 use crate::{Sink, SinkError, StrandBuffer};
-use pelage_curves::catmull_rom;
+use pelage_curves::{Vec3, catmull_rom};
 
 /// An axis-aligned box; empty until something is added.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,16 +60,39 @@ impl Bounds {
     pub fn of(strands: &StrandBuffer) -> Self {
         let mut bounds = Self::default();
         for strand in 0..strands.len() {
-            let range = strands.vertices(strand);
-            let Some((low, high)) = catmull_rom::bounds(strands.strand_points(strand)) else {
+            let points = strands.strand_points(strand);
+            let width = strands.widths.get(strands.vertices(strand)).unwrap_or(&[]);
+            let radius = width.iter().copied().fold(0.0, f32::max) / 2.0;
+            // The tight box of a curve costs much more than this one, and most curves
+            // lie far inside the box of those before them.
+            if bounds.holds(&Self::around(points), radius) {
+                continue;
+            }
+            let Some((low, high)) = catmull_rom::bounds(points) else {
                 continue;
             };
-            let width = strands.widths.get(range).unwrap_or(&[]);
-            let radius = width.iter().copied().fold(0.0, f32::max) / 2.0;
             bounds.add(low.to_array(), radius);
             bounds.add(high.to_array(), radius);
         }
         bounds
+    }
+
+    /// A box that the Catmull-Rom curve through `points` does not leave: its Bézier
+    /// points are at most a sixth of the points' extent away from them.
+    fn around(points: &[Vec3]) -> Self {
+        let least = |a: Vec3, b: &Vec3| a.min(*b);
+        let low = points.iter().fold(Vec3::INFINITY, least);
+        let high = points.iter().fold(Vec3::NEG_INFINITY, |a, b| a.max(*b));
+        // A little more than a sixth, for the rounding of either side.
+        let margin = (high - low) * 0.167;
+        Self {
+            min: (low - margin).to_array(),
+            max: (high + margin).to_array(),
+        }
+    }
+
+    fn holds(&self, other: &Self, radius: f32) -> bool {
+        (0..3).all(|k| self.min[k] <= other.min[k] - radius && other.max[k] + radius <= self.max[k])
     }
 }
 
@@ -109,6 +132,7 @@ impl Sink for BoundsSink {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn half_the_width_is_added_on_every_side() {
@@ -119,6 +143,28 @@ mod tests {
         let bounds = Bounds::of(&strands);
         assert_eq!(bounds.min, [-0.1, -0.1, -0.1]);
         assert_eq!(bounds.max, [0.1, 0.1, 1.1]);
+    }
+
+    proptest! {
+        #[test]
+        fn the_box_of_many_is_the_box_of_the_boxes_of_each(
+            curves in prop::collection::vec(
+                (prop::collection::vec(prop::array::uniform3(-4i8..5), 1..6), 0.0f32..0.5), 0..30
+            ),
+        ) {
+            let (mut all, mut joined) = (StrandBuffer::new(), Bounds::default());
+            for (points, width) in curves {
+                let mut one = StrandBuffer::new();
+                one.points = points.iter().map(|p| p.map(f32::from)).collect();
+                one.widths = vec![width; points.len()];
+                one.offsets = vec![0, points.len() as u32];
+                joined.join(&Bounds::of(&one));
+                all.points.extend(&one.points);
+                all.widths.extend(&one.widths);
+                all.offsets.push(all.points.len() as u32);
+            }
+            prop_assert_eq!(Bounds::of(&all), joined);
+        }
     }
 
     #[test]
