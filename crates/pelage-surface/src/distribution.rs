@@ -48,31 +48,52 @@ impl Distribution {
     /// times as many pick a few percent faster from memory that is near, and slower from
     /// memory that is far (docs/results/sampling.md).
     pub fn new(weights: &[f64]) -> Option<Self> {
-        let bits = usize::BITS - weights.len().saturating_sub(1).leading_zeros();
-        Self::with_cells(weights, bits)
+        Self::with_cells(weights, cell_bits(weights.len()))
     }
 
     /// The same with a grid of 2^`bits` cells (1 to 32 bits), for those who know better.
     pub fn with_cells(weights: &[f64], bits: u32) -> Option<Self> {
-        let sound = weights.iter().all(|w| *w > 0.0 && w.is_finite());
-        let few = u32::try_from(weights.len()).is_ok();
-        if weights.is_empty() || !sound || !few {
-            return None;
-        }
-        let (sums, total) = running_sums(weights);
-        if !total.is_finite() {
+        let runs: Vec<&[f64]> = weights.chunks(RUN).collect();
+        Self::of_runs(&runs, bits)
+    }
+
+    /// As [`new`](Self::new), of weights that come in `runs`, which are summed in parallel:
+    /// how they are cut shows in the last bits of the sums.
+    pub(crate) fn new_of_runs(runs: &[&[f64]]) -> Option<Self> {
+        let len = runs.iter().map(|run| run.len()).sum();
+        Self::of_runs(runs, cell_bits(len))
+    }
+
+    fn of_runs(runs: &[&[f64]], bits: u32) -> Option<Self> {
+        let sums: Option<Vec<f64>> = runs.par_iter().map(|run| sound_sum(run)).collect();
+        let mut total = 0.0;
+        let before: Vec<f64> = sums?
+            .into_iter()
+            .map(|sum| {
+                let before = total;
+                total += sum;
+                before
+            })
+            .collect();
+        let len: usize = runs.iter().map(|run| run.len()).sum();
+        if len == 0 || u32::try_from(len).is_err() || !total.is_finite() {
             return None;
         }
         let scale = TWO_64 / total;
-        let mut starts = vec![u64::MAX; weights.len() + PADDING];
-        starts
-            .par_iter_mut()
-            .zip(&sums)
-            // Scaling is monotonic, and a product past the end saturates.
-            .for_each(|(start, sum)| *start = (sum * scale) as u64);
+        let mut starts = vec![u64::MAX; len + PADDING];
+        let shares = divide(&mut starts, runs.iter().map(|run| run.len()));
+        let shares = shares.into_par_iter().zip(runs).zip(before);
+        shares.for_each(|((starts, weights), before)| {
+            let mut inside = 0.0;
+            for (start, weight) in starts.iter_mut().zip(*weights) {
+                // Scaling is monotonic, and a product past the end saturates.
+                *start = ((before + inside) * scale) as u64;
+                inside += weight;
+            }
+        });
         let shift = 64 - bits.clamp(1, 32);
         Some(Self {
-            grid: grid(&starts[..weights.len()], shift),
+            grid: grid(&starts[..len], shift),
             starts,
             shift,
             total,
@@ -193,51 +214,56 @@ const TWO_64: f64 = 18_446_744_073_709_551_616.0;
 /// Weights summed at a time. Fixed, so that the sums do not depend on the threads.
 const RUN: usize = 1 << 14;
 
-/// The sum of the weights before each, and of all.
-fn running_sums(weights: &[f64]) -> (Vec<f64>, f64) {
-    let mut total = 0.0;
-    let before: Vec<f64> = weights
-        .par_chunks(RUN)
-        .map(|run| run.iter().sum::<f64>())
-        .collect::<Vec<_>>()
-        .into_iter()
-        .map(|sum| {
-            let before = total;
-            total += sum;
-            before
+/// The sum of `weights`, if all are positive and finite.
+fn sound_sum(weights: &[f64]) -> Option<f64> {
+    let sound = weights.iter().all(|w| *w > 0.0 && w.is_finite());
+    sound.then(|| weights.iter().sum())
+}
+
+/// The consecutive parts of `whole` that have the lengths `lengths`.
+pub(crate) fn divide<T>(whole: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
+    let mut left = whole;
+    lengths
+        .map(|length| {
+            let (part, later) = std::mem::take(&mut left).split_at_mut(length);
+            left = later;
+            part
         })
-        .collect();
-    let mut sums = vec![0.0; weights.len()];
-    let runs = weights.par_chunks(RUN).zip(sums.par_chunks_mut(RUN));
-    runs.zip(before).for_each(|((weights, sums), before)| {
-        let mut inside = 0.0;
-        for (weight, sum) in weights.iter().zip(sums) {
-            *sum = before + inside;
-            inside += weight;
-        }
-    });
-    (sums, total)
+        .collect()
+}
+
+/// As many bits as the number of elements has.
+fn cell_bits(elements: usize) -> u32 {
+    usize::BITS - elements.saturating_sub(1).leading_zeros()
 }
 
 /// The element that the lower end of each cell falls in, and the last element.
+///
+/// Each element is noted in the first cell whose lower end it holds, if it holds any;
+/// what is noted last before a cell is its element. So nothing depends on a comparison
+/// that processors would have to guess.
 fn grid(starts: &[u64], shift: u32) -> Vec<u32> {
     let cells = 1usize << (64 - shift);
     let mut grid = vec![0; cells + 1];
     grid[cells] = (starts.len() - 1) as u32;
-    grid[..cells]
-        .par_chunks_mut(RUN)
-        .enumerate()
-        .for_each(|(run, cells)| {
-            let low = ((run * RUN) as u64) << shift;
-            let mut element = starts.partition_point(|&start| start <= low) - 1;
-            for (k, cell) in cells.iter_mut().enumerate() {
-                let low = ((run * RUN + k) as u64) << shift;
-                while element + 1 < starts.len() && starts[element + 1] <= low {
-                    element += 1;
-                }
-                *cell = element as u32;
-            }
-        });
+    let runs = grid[..cells].par_chunks_mut(RUN).enumerate();
+    runs.for_each(|(run, cells)| {
+        let first = (run * RUN) as u64;
+        let last = first + cells.len() as u64 - 1;
+        let holds = |cell: u64| starts.partition_point(|&start| start <= cell << shift);
+        for element in holds(first) - 1..holds(last) {
+            let cell = match starts[element] {
+                0 => 0,
+                start => ((start - 1) >> shift) + 1,
+            };
+            cells[cell.saturating_sub(first) as usize] = element as u32;
+        }
+        let mut element = 0;
+        for cell in cells {
+            element = element.max(*cell);
+            *cell = element;
+        }
+    });
     grid
 }
 
@@ -259,6 +285,22 @@ mod tests {
             prop_assert!((0.0..=1.0).contains(&pick.rest));
             for (i, w) in weights.iter().enumerate() {
                 prop_assert!((d.probability(i) - w / d.total()).abs() < 1e-14);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_grid_knows_the_element_at_the_lower_end_of_each_cell(
+            weights in prop::collection::vec(prop_oneof![1e-9f64..1e-3, 1.0f64..1e9], 1..200),
+            bits in 1u32..18,
+        ) {
+            let d = Distribution::with_cells(&weights, bits).unwrap();
+            let starts = &d.starts[..d.len()];
+            for (cell, &element) in d.grid[..1 << bits].iter().enumerate() {
+                let low = (cell as u64) << d.shift;
+                let expected = starts.partition_point(|&start| start <= low) - 1;
+                prop_assert_eq!(element as usize, expected);
             }
         }
     }
