@@ -148,27 +148,11 @@ impl Lamp {
 
 /// A shade: a bulging tube about the vertical.
 fn shade() -> Result<Mesh, Box<dyn Error>> {
-    let (columns, rows) = (96, 48);
-    let mut mesh = PolygonMesh::default();
-    let at = |x: u32, y: u32| [x as f64 / columns as f64, y as f64 / rows as f64];
-    for y in 0..=rows {
-        for x in 0..=columns {
-            let [u, v] = at(x, y);
-            let radius = 0.3 + 0.25 * libm::sin(0.5 * TAU * v);
-            let point = [radius * libm::cos(TAU * u), v, radius * libm::sin(TAU * u)];
-            mesh.positions.push(point.map(|c| c as f32));
-        }
-    }
-    for y in 0..rows {
-        for x in 0..columns {
-            mesh.face_sizes.push(4);
-            for [x, y] in [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]] {
-                mesh.corner_vertices.push(y * (columns + 1) + x);
-                mesh.corner_uvs.push(at(x, y).map(|c| c as f32));
-            }
-        }
-    }
-    Ok(Mesh::new(mesh)?)
+    let tube = PolygonMesh::sheet(96, 48, |u, v| {
+        let radius = 0.3 + 0.25 * libm::sin(0.5 * TAU * v);
+        [radius * libm::cos(TAU * u), v, radius * libm::sin(TAU * u)]
+    });
+    Ok(Mesh::new(tube)?)
 }
 
 /// A dim shade with some eighty bright holes.
