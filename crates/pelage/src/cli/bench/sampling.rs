@@ -5,7 +5,7 @@ use super::measure::{Effort, Row, measure};
 use super::methods::{METHODS, sampler};
 use super::picks;
 use super::plot::{Axes, Line, logarithmic};
-use super::surfaces::{Surface, surfaces};
+use super::surfaces::{Surface, first_surface, surfaces};
 use crate::cli::progress::Bar;
 use crate::cli::say::Say;
 use anyhow::Result;
@@ -53,23 +53,20 @@ pub fn run(quick: bool, say: &Say) -> Results {
             runs: 3,
         },
     };
-    let mut surfaces = surfaces();
-    if quick {
-        surfaces.truncate(1);
-    }
+    let surfaces = surfaces().take(if quick { 1 } else { usize::MAX });
     let maps = maps(if quick { 256 } else { MAP_SIZE });
     let total = surfaces.len() * maps.len() * METHODS.len();
     let bar = Bar::new(say, total as u64, "measurements");
     let mut rates = Vec::new();
-    for surface in &surfaces {
+    for surface in surfaces {
         for map in &maps {
             for method in METHODS {
-                rates.push(measure(surface, map, method, 1, effort));
+                rates.push(measure(&surface, map, method, 1, effort));
                 bar.set(rates.len() as u64);
             }
         }
     }
-    let first = &surfaces[0];
+    let first = &first_surface();
     let weights = |map| {
         let sampler = sampler(&first.mesh, map);
         let all = sampler.distribution();
