@@ -3,6 +3,7 @@
 mod maps;
 mod measure;
 mod methods;
+mod order;
 mod picks;
 mod plot;
 mod sampling;

@@ -1,8 +1,9 @@
 //! `pelage bench sampling`: the tables of document 004, section 4.1, measured again.
 
-use super::maps::{map, maps};
+use super::maps::{Map, map, maps};
 use super::measure::{Effort, Row, measure};
 use super::methods::{METHODS, sampler};
+use super::order::{self, Evenness};
 use super::picks;
 use super::plot::{Axes, Line, logarithmic};
 use super::surfaces::{Surface, first_surface, surfaces};
@@ -33,6 +34,8 @@ pub struct Results {
     pub sizes: Vec<Row>,
     /// Our method for several numbers of threads.
     pub threads: Vec<Row>,
+    /// How evenly roots are spread by the order of the pieces.
+    pub evenness: Vec<Evenness>,
     /// Picks a second by the size of the grid.
     pub cells: Vec<(&'static str, Vec<f64>)>,
     /// Picks a second from skies, with and without the grid.
@@ -58,6 +61,7 @@ pub fn run(quick: bool, say: &Say) -> Results {
     let total = surfaces.len() * maps.len() * METHODS.len();
     let bar = Bar::new(say, total as u64, "measurements");
     let mut rates = Vec::new();
+    let mut evenness = Vec::new();
     for surface in surfaces {
         for map in &maps {
             for method in METHODS {
@@ -65,6 +69,7 @@ pub fn run(quick: bool, say: &Say) -> Results {
                 bar.set(rates.len() as u64);
             }
         }
+        evenness.extend(order::measure(&surface, &maps, quick));
     }
     let first = &first_surface();
     let weights = |map| {
@@ -85,6 +90,7 @@ pub fn run(quick: bool, say: &Say) -> Results {
             .iter()
             .map(|map| (map.name, picks::sky(map, effort)))
             .collect(),
+        evenness,
         rates,
     }
 }
@@ -103,11 +109,11 @@ fn by_size(surface: &Surface, smallest: u32, effort: Effort) -> Vec<Row> {
         .into()
 }
 
-fn by_threads(surface: &Surface, maps: &[super::maps::Map], effort: Effort) -> Vec<Row> {
+fn by_threads(surface: &Surface, maps: &[Map], effort: Effort) -> Vec<Row> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let doubled = std::iter::successors(Some(1), |n| Some(n * 2));
     let counts: Vec<usize> = doubled.take_while(|&n| n <= cores).collect();
-    let named = |name: &&super::maps::Map| ["uniform", "embers"].contains(&name.name);
+    let named = |name: &&Map| ["uniform", "embers"].contains(&name.name);
     maps.iter()
         .filter(named)
         .flat_map(|map| counts.iter().map(move |&n| (map, n)))
@@ -182,6 +188,7 @@ impl Results {
                 row.rate()
             )?;
         }
+        order::write_tables(&self.evenness, text)?;
         writeln!(
             text,
             "\n## Cells of the grid an element, million picks a second\n"
