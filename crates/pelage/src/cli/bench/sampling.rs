@@ -112,8 +112,15 @@ fn by_size(surface: &Surface, smallest: u32, effort: Effort) -> Vec<Row> {
 fn by_threads(surface: &Surface, maps: &[Map], effort: Effort) -> Vec<Row> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let doubled = std::iter::successors(Some(1), |n| Some(n * 2));
-    let counts: Vec<usize> = doubled.take_while(|&n| n <= cores).collect();
+    let below = doubled.take_while(|&n| n < cores);
+    let counts: Vec<usize> = below.chain([cores]).collect();
     let named = |name: &&Map| ["uniform", "embers"].contains(&name.name);
+    // Shorter runs, and more: another program on a core slows two threads more than one.
+    let effort = Effort {
+        seconds: effort.seconds / 8.0,
+        runs: effort.runs * 8,
+        ..effort
+    };
     maps.iter()
         .filter(named)
         .flat_map(|map| counts.iter().map(move |&n| (map, n)))
@@ -177,17 +184,7 @@ impl Results {
                 size = row.map_size,
             )?;
         }
-        writeln!(text, "\n## Threads\n")?;
-        writeln!(text, "| map | threads | M samples/s |\n|---|---|---|")?;
-        for row in &self.threads {
-            writeln!(
-                text,
-                "| {} | {} | {:.1} |",
-                row.map,
-                row.threads,
-                row.rate()
-            )?;
-        }
+        self.by_threads(text)?;
         order::write_tables(&self.evenness, text)?;
         writeln!(
             text,
@@ -206,6 +203,30 @@ impl Results {
         for (map, [grid, bisection]) in &self.skies {
             let times = grid / bisection;
             writeln!(text, "| {map} | {grid:.1} | {bisection:.1} | {times:.1} |")?;
+        }
+        Ok(())
+    }
+
+    fn by_threads(&self, text: &mut String) -> std::fmt::Result {
+        writeln!(text, "\n## Threads\n")?;
+        writeln!(
+            text,
+            "| map | threads | M samples/s | times | preprocessing, ms | times |\n\
+            |---|---|---|---|---|---|"
+        )?;
+        for rows in self.threads.chunk_by(|a, b| a.map == b.map) {
+            for row in rows {
+                writeln!(
+                    text,
+                    "| {} | {} | {:.1} | {:.2} | {:.0} | {:.2} |",
+                    row.map,
+                    row.threads,
+                    row.rate(),
+                    row.rate() / rows[0].rate(),
+                    row.preprocess_seconds * 1e3,
+                    rows[0].preprocess_seconds / row.preprocess_seconds,
+                )?;
+            }
         }
         Ok(())
     }
