@@ -7,6 +7,7 @@ use super::order::{self, Evenness};
 use super::picks;
 use super::plot::{Axes, Line, logarithmic};
 use super::surfaces::{Surface, first_surface, surfaces};
+use crate::cli::generate::threads_of;
 use crate::cli::progress::Bar;
 use crate::cli::say::Say;
 use anyhow::Result;
@@ -110,7 +111,7 @@ fn by_size(surface: &Surface, smallest: u32, effort: Effort) -> Vec<Row> {
 }
 
 fn by_threads(surface: &Surface, maps: &[Map], effort: Effort) -> Vec<Row> {
-    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+    let cores = threads_of(0);
     let doubled = std::iter::successors(Some(1), |n| Some(n * 2));
     let below = doubled.take_while(|&n| n < cores);
     let counts: Vec<usize> = below.chain([cores]).collect();
@@ -140,7 +141,7 @@ impl Results {
 
     /// The tables and plots as Markdown, with what they are.
     pub fn page(&self) -> String {
-        let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+        let cores = threads_of(0);
         let version = env!("CARGO_PKG_VERSION");
         format!(
             "# Sampling\n\nMade by `pelage bench sampling -o docs/results --json \
