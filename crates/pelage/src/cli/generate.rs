@@ -1,11 +1,12 @@
 //! `pelage generate`: a recipe's hairs into a file.
 
 use super::args::{GenerateArgs, ViewArgs, hairs};
+use super::files::{json, write};
 use super::picture;
 use super::progress::Bar;
 use super::say::{Say, bytes, grouped, spent};
 use super::stats::Stats;
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use pelage::io::{WriteOptions, sink_for};
 use pelage::strands::{Collect, SinkError, Tee};
 use pelage::{Loaded, Recipe, Report, Sink, StrandBuffer, generate, load_with};
@@ -236,16 +237,10 @@ impl Sink for FirstFrame {
 }
 
 fn write_stats(stats: &Stats, path: &Path) -> Result<()> {
-    let mut text = serde_json::to_string_pretty(stats)?;
-    text.push('\n');
+    let text = json(stats)?;
     if path == Path::new("-") {
         std::io::stdout().lock().write_all(text.as_bytes())?;
         return Ok(());
     }
-    let write = || {
-        let mut file = pelage::io::AtomicFile::create(path)?;
-        file.write_all(text.as_bytes())?;
-        file.commit()
-    };
-    write().with_context(|| format!("cannot write {}", path.display()))
+    write(path, &text)
 }
