@@ -4,7 +4,7 @@ use super::args::{GenerateArgs, ViewArgs, hairs};
 use super::files::{json, write};
 use super::picture;
 use super::progress::Bar;
-use super::say::{Say, bytes, grouped, spent};
+use super::say::{Made, Say, grouped, spent};
 use super::stats::Stats;
 use anyhow::{Result, bail};
 use pelage::io::{WriteOptions, sink_for};
@@ -79,7 +79,8 @@ impl Job {
         let mut job = Self::load(recipe, args.threads, say)?;
         job.request.hairs =
             hairs(args.range, job.loaded.plan.count(), "--count").map_err(anyhow::Error::msg)?;
-        if frames.is_empty() && args.frame.is_none() && job.loaded.poses.source().is_animated() {
+        if frames.is_empty() && args.frame.is_none() && job.loaded.poses.source().is_animated()
+        {
             bail!("surface.posed has a pose for each frame: say which with --frame or --frames");
         }
         job.frame = args.frame.map_or(0.0, |f| f as f64);
@@ -138,8 +139,6 @@ impl Job {
 
     /// What was made, in two lines or three.
     pub fn tell(&self, report: &Report, output: &Path, say: &Say) {
-        let rate = (self.hairs() * self.frames() as u64) as f64
-            / self.generate_time.as_secs_f64().max(1e-9);
         say.line(format_args!(
             "{} hairs, {} vertices from {} guides on {} triangles{}",
             grouped(report.strands),
@@ -159,14 +158,12 @@ impl Job {
                 grouped(report.dropped.without_guides),
             ));
         }
-        let size = std::fs::metadata(output).map_or(String::new(), |m| bytes(m.len()) + ", ");
-        say.line(format_args!(
-            "{} ({size}loaded in {}, generated in {}, {} hairs/s)",
-            output.display(),
-            spent(self.load_time),
-            spent(self.generate_time),
-            grouped(rate as u64),
-        ));
+        say.line(Made {
+            output,
+            load: self.load_time,
+            done: ("generated", self.generate_time),
+            count: (self.hairs() * self.frames() as u64, "hairs"),
+        });
     }
 
     fn stats(&self, report: &Report) -> Stats {

@@ -7,7 +7,7 @@ use super::args::{SampleArgs, Shown, hairs};
 use super::generate::{options, threads_of};
 use super::picture::draw_scene;
 use super::progress::Bar;
-use super::say::{Say, bytes, grouped, spent};
+use super::say::{Made, Say, grouped, spent};
 use anyhow::{Result, bail};
 use dots::{Dots, FirstRoots};
 use paints::{DensityPaint, PiecePaint};
@@ -100,15 +100,12 @@ impl Job {
             grouped(plan.rest().triangles().len() as u64),
             grouped(plan.sampler().map_or(0, |s| s.piece_count()) as u64),
         ));
-        let size = std::fs::metadata(output).map_or(String::new(), |m| bytes(m.len()) + ", ");
-        let rate = self.drawn as f64 / self.draw_time.as_secs_f64().max(1e-9);
-        say.line(format_args!(
-            "{} ({size}loaded in {}, drawn in {}, {} roots/s)",
-            output.display(),
-            spent(self.load_time),
-            spent(self.draw_time),
-            grouped(rate as u64),
-        ));
+        say.line(Made {
+            output,
+            load: self.load_time,
+            done: ("drawn", self.draw_time),
+            count: (self.drawn, "roots"),
+        });
     }
 
     fn draw(&self, args: &SampleArgs, first: &FirstRoots, output: &Path, say: &Say) -> Result<()> {
