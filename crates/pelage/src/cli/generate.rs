@@ -1,6 +1,6 @@
 //! `pelage generate`: a recipe's hairs into a file.
 
-use super::args::{GenerateArgs, ViewArgs, hairs};
+use super::args::{GenerateArgs, ViewArgs};
 use super::files::{json, write};
 use super::picture;
 use super::progress::Bar;
@@ -17,9 +17,7 @@ use std::time::{Duration, Instant};
 
 /// Generates as asked and says what was made.
 pub fn run(args: &GenerateArgs, say: &Say) -> Result<ExitCode> {
-    let mut recipe = Recipe::load(&args.recipe)?;
-    recipe.hair.count = args.count.unwrap_or(recipe.hair.count);
-    recipe.hair.seed = args.seed.unwrap_or(recipe.hair.seed);
+    let recipe = args.run.recipe(&args.recipe, args.count)?;
     let mut job = Job::new(recipe, args, say)?;
     let mut sink = sink_for(&args.output, &options(args.ribbons))?;
     let mut first = FirstFrame::default();
@@ -76,14 +74,13 @@ impl Job {
             Some((first, last)) => (first..=last).map(|f| f as f64).collect(),
             None => Vec::new(),
         };
-        let mut job = Self::load(recipe, args.threads, say)?;
-        job.request.hairs =
-            hairs(args.range, job.loaded.plan.count(), "--count").map_err(anyhow::Error::msg)?;
-        if frames.is_empty() && args.frame.is_none() && job.loaded.poses.source().is_animated()
+        let mut job = Self::load(recipe, args.run.threads, say)?;
+        job.request.hairs = args.run.hairs(job.loaded.plan.count(), "--count")?;
+        if frames.is_empty() && args.run.frame.is_none() && job.loaded.poses.source().is_animated()
         {
             bail!("surface.posed has a pose for each frame: say which with --frame or --frames");
         }
-        job.frame = args.frame.map_or(0.0, |f| f as f64);
+        job.frame = args.run.frame.map_or(0.0, |f| f as f64);
         job.request.info.frames = frames;
         if !(args.fps > 0.0 && args.fps.is_finite()) {
             bail!("--fps {}: expected a number above 0", args.fps);

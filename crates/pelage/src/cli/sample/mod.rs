@@ -3,7 +3,7 @@
 mod dots;
 mod paints;
 
-use super::args::{SampleArgs, Shown, hairs};
+use super::args::{SampleArgs, Shown};
 use super::generate::{options, threads_of};
 use super::picture::draw_scene;
 use super::progress::Bar;
@@ -23,9 +23,7 @@ use std::time::{Duration, Instant};
 
 /// Draws roots as asked and says what was made.
 pub fn run(args: &SampleArgs, say: &Say) -> Result<ExitCode> {
-    let mut recipe = Recipe::load(&args.recipe)?;
-    recipe.hair.count = args.count.unwrap_or(recipe.hair.count);
-    recipe.hair.seed = args.seed.unwrap_or(recipe.hair.seed);
+    let recipe = args.run.recipe(&args.recipe, args.count)?;
     let mut sink = root_sink_for(&args.output, &options(false))?;
     let mut job = Job::load(recipe, args, say)?;
     let mut first = FirstRoots::default();
@@ -54,20 +52,20 @@ struct Job {
 impl Job {
     fn load(recipe: Recipe, args: &SampleArgs, say: &Say) -> Result<Self> {
         let started = Instant::now();
-        let wanted = hairs(args.range, recipe.hair.count, "-n").map_err(anyhow::Error::msg)?;
+        let wanted = args.run.hairs(recipe.hair.count, "-n")?;
         let mut loaded = load_roots(recipe)?;
         loaded.plan.notes().iter().for_each(|note| say.note(note));
-        if args.frame.is_none() && loaded.poses.source().is_animated() {
+        if args.run.frame.is_none() && loaded.poses.source().is_animated() {
             bail!("surface.posed has a pose for each frame: say which with --frame");
         }
-        let frame = args.frame.map_or(0.0, |f| f as f64);
+        let frame = args.run.frame.map_or(0.0, |f| f as f64);
         let pose = loaded
             .poses
             .pose(&loaded.recipe, loaded.plan.rest(), frame)?;
         Ok(Self {
             request: Request {
                 hairs: wanted,
-                threads: threads_of(args.threads),
+                threads: threads_of(args.run.threads),
                 info: loaded.info.clone(),
             },
             loaded,
@@ -131,7 +129,7 @@ impl Job {
             up,
             &args.camera,
             plain_light(),
-            args.threads,
+            args.run.threads,
             output,
             say,
         )?;
