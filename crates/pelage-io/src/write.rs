@@ -43,29 +43,41 @@ pub const ROOTS_WRITABLE: [(&str, &str); 3] = [
 /// assert!(error.to_string().contains("usdc"));
 /// ```
 pub fn sink_for(path: &Path, options: &WriteOptions) -> Result<Box<dyn Sink>, SinkError> {
-    if path == Path::new("null") {
-        return Ok(Box::new(Null));
-    }
-    Ok(match extension(path).as_deref() {
-        Some("usdc" | "usd") => Box::new(UsdcWriter::new(path, options)),
-        Some("usda") => Box::new(UsdaWriter::new(path, options)),
-        Some("npz") => Box::new(NpzWriter::new(path, options)),
-        Some("rib") => Box::new(RibWriter::new(path, options)),
-        other => return Err(unknown(path, other, &WRITABLE)),
+    by_extension(path, &WRITABLE, |extension| {
+        Some(match extension {
+            "usdc" | "usd" => Box::new(UsdcWriter::new(path, options)),
+            "usda" => Box::new(UsdaWriter::new(path, options)),
+            "npz" => Box::new(NpzWriter::new(path, options)),
+            "rib" => Box::new(RibWriter::new(path, options)),
+            _ => return None,
+        })
     })
 }
 
 /// As [`sink_for`], of roots: strands of one vertex, with surface normals for curve
 /// normals.
 pub fn root_sink_for(path: &Path, options: &WriteOptions) -> Result<Box<dyn Sink>, SinkError> {
+    by_extension(path, &ROOTS_WRITABLE, |extension| {
+        Some(match extension {
+            "npz" => Box::new(NpzWriter::new(path, options)),
+            "ply" => Box::new(PlyRootsWriter::new(path, options)),
+            _ => return None,
+        })
+    })
+}
+
+/// What `writer` makes of the extension of `path`, of which it knows those of `writable`.
+fn by_extension(
+    path: &Path,
+    writable: &[(&str, &str)],
+    writer: impl FnOnce(&str) -> Option<Box<dyn Sink>>,
+) -> Result<Box<dyn Sink>, SinkError> {
     if path == Path::new("null") {
         return Ok(Box::new(Null));
     }
-    Ok(match extension(path).as_deref() {
-        Some("npz") => Box::new(NpzWriter::new(path, options)),
-        Some("ply") => Box::new(PlyRootsWriter::new(path, options)),
-        other => return Err(unknown(path, other, &ROOTS_WRITABLE)),
-    })
+    let extension = extension(path);
+    let made = extension.as_deref().and_then(writer);
+    made.ok_or_else(|| unknown(path, extension.as_deref(), writable))
 }
 
 fn extension(path: &Path) -> Option<String> {

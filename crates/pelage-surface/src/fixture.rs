@@ -4,25 +4,8 @@ use crate::{ImageMap, Mesh, PolygonMesh};
 
 /// A wavy sheet of `n × n` squares over the unit square, with UVs.
 pub(crate) fn sheet(n: u32) -> Mesh {
-    let at = |i: u32| i as f32 / n as f32;
-    let grid = |x: u32, y: u32| y * (n + 1) + x;
-    let mut mesh = PolygonMesh::default();
-    for y in 0..=n {
-        for x in 0..=n {
-            mesh.positions
-                .push([at(x), at(y), 0.2 * libm::sinf(5.0 * at(x))]);
-        }
-    }
-    for y in 0..n {
-        for x in 0..n {
-            mesh.face_sizes.push(4);
-            for (dx, dy) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
-                mesh.corner_vertices.push(grid(x + dx, y + dy));
-                mesh.corner_uvs.push([at(x + dx), at(y + dy)]);
-            }
-        }
-    }
-    Mesh::new(mesh).unwrap()
+    let wave = |u, v| [u, v, 0.2 * libm::sin(5.0 * u)];
+    Mesh::new(PolygonMesh::sheet(n, n, wave)).unwrap()
 }
 
 pub(crate) fn spots() -> ImageMap {

@@ -18,6 +18,7 @@ mod pieces;
 pub mod quality;
 mod sampler;
 mod sequence;
+mod sheet;
 mod subdivide;
 mod tangents;
 mod triangulate;

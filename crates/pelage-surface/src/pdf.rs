@@ -70,7 +70,7 @@ impl<'a> RootPdf<'a> {
     }
 
     /// The numbers that [`RootSampler::place`] leads to `place`, to rounding; `None`
-    /// where no hair grows.
+    /// where no hair grows, or on a piece too dim beside the rest for any number.
     pub fn inverse(&self, place: &SurfacePoint) -> Option<(u64, u32)> {
         let (index, part) = self.piece(place)?;
         let [_, u, v] = place.barycentric;
@@ -83,8 +83,9 @@ impl<'a> RootPdf<'a> {
         };
         let (start, end) = self.sampler.distribution().share(index);
         let width = (end - start as u128) as f64;
-        // A share is at most 2^64 wide; the saturating casts keep its last number.
-        let inside = ((root * root * width) as u64).min((end - 1 - start as u128) as u64);
+        let last = (end - start as u128).checked_sub(1)? as u64;
+        // The casts saturate: a share may be all of 2^64.
+        let inside = ((root * root * width) as u64).min(last);
         Some((start + inside, (along * (1u64 << 32) as f64) as u32))
     }
 
@@ -149,7 +150,7 @@ fn depth_of(part: Part) -> u32 {
 mod tests {
     use super::*;
     use crate::fixture::{maps, sheet};
-    use crate::{Density, Spread, Wrap};
+    use crate::{Density, ImageMap, Spread, Wrap};
     use proptest::prelude::*;
 
     proptest! {
@@ -182,6 +183,21 @@ mod tests {
             let (start, end) = paths_of(part);
             prop_assert!((start..end).contains(&path_to(u, v)));
         }
+    }
+
+    #[test]
+    fn a_piece_too_dim_for_any_number_has_no_way_back() {
+        let mesh = sheet(2);
+        let texels = (0..64).map(|i| if i == 9 { 1e30 } else { 1e-30 });
+        let map = ImageMap::new(8, 8, 1, texels.collect(), false).unwrap();
+        let density = Density {
+            value: 1.0,
+            map: Some((&map, 0, Wrap::Clamp)),
+        };
+        let sampler = RootSampler::new(&mesh, &density, 0).unwrap();
+        let pdf = RootPdf::new(&sampler, &mesh);
+        let dim = sampler.piece_centres().filter(|c| pdf.density(c) == 0.0);
+        assert!(dim.inspect(|c| assert!(pdf.inverse(c).is_none())).count() > 0);
     }
 
     /// Independent roots in a grid of cells over the sheet, against the integral of the

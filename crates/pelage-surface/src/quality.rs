@@ -2,11 +2,14 @@
 //!
 //! Sources: Lagae and Dutré 2008, "A Comparison of Methods for Generating Poisson Disk
 //! Distributions", for the smallest distance relative to that of the densest packing;
+//! Clark and Evans 1954, "Distance to Nearest Neighbor as a Measure of Spatial
+//! Relationships in Populations", for the mean distance relative to that of chance;
 //! Ulichney 1987, "Digital Halftoning", for the radially averaged power spectrum.
 
 use crate::blue_noise::hierarchy::{Bounds, Hierarchy};
 use crate::hilbert::hilbert_index;
 use pelage_curves::Vec3;
+use std::ops::Range;
 
 /// A root as its neighbours see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,9 +33,6 @@ impl Sample {
     }
 }
 
-/// Samples in a leaf of their hierarchy.
-const LEAF: usize = 8;
-
 /// The smallest distance between two of `samples`, relative to the distance in the
 /// hexagonal packing of as many points on the same `area`, √(2 · area / (√3 · n)). 1 for
 /// a perfect lattice; saturated Poisson-disk sets have 0.7 to 0.78. Distances are
@@ -40,29 +40,82 @@ const LEAF: usize = 8;
 ///
 /// Infinite where no two samples are neighbours.
 pub fn smallest_distance_ratio(samples: &[Sample], area: f64) -> f64 {
-    let sorted = along_curve(samples);
-    let leaves = sorted.chunks(LEAF);
-    let leaves = leaves.map(|leaf| Bounds::around(leaf.iter().map(Sample::bounds)));
-    let tree = Hierarchy::new(leaves);
-    let mut least = f32::INFINITY;
-    for (i, a) in sorted.iter().enumerate() {
-        let bounds = a.bounds();
-        tree.near_shrinking(&bounds, least, |leaf| {
-            let end = ((leaf + 1) * LEAF).min(i);
-            for b in sorted.get(leaf * LEAF..end).unwrap_or_default() {
-                let gap = b.bounds().gap(&bounds);
-                if gap < least && a.normal.dot(b.normal) > 0.0 {
-                    least = gap;
-                }
-            }
-            least
-        });
-    }
+    let all = Neighbours::new(samples);
+    let nearer = |least, i| all.nearest(i, i, least);
+    let least = (0..samples.len()).fold(f32::INFINITY, nearer);
     if least == f32::INFINITY {
         return f64::INFINITY;
     }
     let hexagonal = 2.0 * area / (3.0f64.sqrt() * samples.len() as f64);
     (least as f64 / hexagonal).sqrt()
+}
+
+/// The mean distance of `samples` to their nearest neighbours, relative to that of as many
+/// independent points on the same `area`, √(area / n) / 2. 1 for independent points, 2 for
+/// a square lattice, 2.15 for the hexagonal one, below 1 for clusters. Distances are as in
+/// [`smallest_distance_ratio`]; samples without a neighbour are left out.
+///
+/// NaN where no two samples are neighbours.
+pub fn nearest_distance_ratio(samples: &[Sample], area: f64) -> f64 {
+    let all = Neighbours::new(samples);
+    let nearest = (0..samples.len()).map(|i| {
+        // Those beside it on the curve are near enough to begin with.
+        let beside = all.least_in(i, i.saturating_sub(1)..i + 2, f32::INFINITY);
+        all.nearest(i, samples.len(), beside)
+    });
+    let found = nearest.filter(|gap| gap.is_finite());
+    let (sum, count) = found.fold((0.0, 0), |(sum, count), gap| {
+        (sum + (gap as f64).sqrt(), count + 1)
+    });
+    let independent = (area / samples.len() as f64).sqrt() / 2.0;
+    sum / count as f64 / independent
+}
+
+/// Samples along a curve, and the bounds of leaves of them.
+struct Neighbours {
+    sorted: Vec<Sample>,
+    tree: Hierarchy,
+}
+
+/// Samples in a leaf of their hierarchy.
+const LEAF: usize = 8;
+
+impl Neighbours {
+    fn new(samples: &[Sample]) -> Self {
+        let sorted = along_curve(samples);
+        let leaves = sorted.chunks(LEAF);
+        let leaves = leaves.map(|leaf| Bounds::around(leaf.iter().map(Sample::bounds)));
+        Self {
+            tree: Hierarchy::new(leaves),
+            sorted,
+        }
+    }
+
+    /// The smallest squared distance of sample `i` to others below `end`, or `least` where
+    /// none is nearer.
+    fn nearest(&self, i: usize, end: usize, mut least: f32) -> f32 {
+        let bounds = self.sorted[i].bounds();
+        self.tree.near_shrinking(&bounds, least, |leaf| {
+            let last = ((leaf + 1) * LEAF).min(end);
+            least = self.least_in(i, leaf * LEAF..last, least);
+            least
+        });
+        least
+    }
+
+    /// The same among the samples of `range`, of which there may be fewer.
+    fn least_in(&self, i: usize, range: Range<usize>, mut least: f32) -> f32 {
+        let sample = &self.sorted[i];
+        let bounds = sample.bounds();
+        for k in range.start..range.end.min(self.sorted.len()) {
+            let other = &self.sorted[k];
+            let gap = other.bounds().gap(&bounds);
+            if k != i && gap < least && sample.normal.dot(other.normal) > 0.0 {
+                least = gap;
+            }
+        }
+        least
+    }
 }
 
 fn along_curve(samples: &[Sample]) -> Vec<Sample> {
@@ -147,36 +200,45 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_smallest_distance_is_that_of_comparing_all(
+        fn distances_are_those_of_comparing_all(
             places in prop::collection::vec((prop::array::uniform3(0f32..1.0), 0.1f64..5.0), 2..90),
         ) {
             let samples: Vec<Sample> = places
                 .iter()
                 .map(|&(p, density)| Sample { density, ..at(p) })
                 .collect();
-            let mut least = f64::INFINITY;
+            let mut nearest = vec![f64::INFINITY; samples.len()];
             for (i, a) in samples.iter().enumerate() {
-                for b in &samples[..i] {
+                for (j, b) in samples.iter().enumerate().filter(|(j, _)| *j != i) {
                     let scale = (a.density * b.density).sqrt().sqrt();
-                    least = least.min(a.position.distance(b.position) as f64 * scale);
+                    let distance = a.position.distance(b.position) as f64 * scale;
+                    nearest[j] = nearest[j].min(distance);
                 }
             }
-            let hexagonal = (2.0 / (3f64.sqrt() * samples.len() as f64)).sqrt();
+            let count = samples.len() as f64;
+            let least = nearest.iter().copied().fold(f64::INFINITY, f64::min);
+            let hexagonal = (2.0 / (3f64.sqrt() * count)).sqrt();
             let ratio = smallest_distance_ratio(&samples, 1.0);
             prop_assert!((ratio - least / hexagonal).abs() < 1e-5);
+            let mean = nearest.iter().sum::<f64>() / count;
+            let ratio = nearest_distance_ratio(&samples, 1.0);
+            prop_assert!((ratio - mean * 2.0 * count.sqrt()).abs() < 1e-4);
         }
     }
 
     #[test]
-    fn a_hexagonal_packing_has_ratio_one() {
+    fn a_hexagonal_packing_has_the_ratios_of_the_literature() {
         let (n, height) = (30, 3f32.sqrt() / 2.0);
         let lattice = (0..n * n).map(|i| {
             let (x, y) = ((i % n) as f32, (i / n) as f32);
             at([x + 0.5 * (y % 2.0), y * height, 0.0])
         });
         let area = (n * n) as f64 * height as f64;
-        let ratio = smallest_distance_ratio(&lattice.collect::<Vec<_>>(), area);
+        let lattice: Vec<Sample> = lattice.collect();
+        let ratio = smallest_distance_ratio(&lattice, area);
         assert!((ratio - 1.0).abs() < 1e-5, "{ratio}");
+        let ratio = nearest_distance_ratio(&lattice, area);
+        assert!((ratio - 2.149).abs() < 1e-3, "{ratio}");
     }
 
     #[test]
@@ -190,6 +252,7 @@ mod tests {
             f64::INFINITY
         );
         assert_eq!(smallest_distance_ratio(&[], 1.0), f64::INFINITY);
+        assert!(nearest_distance_ratio(&[at([0.0; 3]), other], 1.0).is_nan());
     }
 
     #[test]

@@ -11,11 +11,14 @@
 //! cargo run --release --example luminaire -- luminaire.svg
 //! ```
 
+#[path = "../src/cli/bench/plot.rs"]
+mod plot;
+
 use pelage::curves::Vec3;
 use pelage::surface::{
     Density, ImageMap, Mesh, PolygonMesh, RootPdf, RootSampler, Spread, SurfacePoint, Wrap, hash,
 };
-use plotters::prelude::*;
+use plot::{Axes, Line, logarithmic};
 use std::error::Error;
 use std::f64::consts::TAU;
 
@@ -36,7 +39,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let flux = lamp.exact(|place| lamp.radiance(place));
     println!("light at the floor: {truth:.6}\n");
     println!("| samples | {} |\n|---|---|---|---|", NAMES.join(" | "));
-    let mut lines = [const { Vec::new() }; 3];
+    let mut lines = NAMES.map(|name| Line {
+        name: name.into(),
+        points: Vec::new(),
+    });
     for samples in (4..=14).map(|k| 1u64 << k) {
         let errors = lamp.errors(samples, truth, flux)?;
         println!(
@@ -44,10 +50,15 @@ fn main() -> Result<(), Box<dyn Error>> {
             errors.map(|e| format!("{e:.5}")).join(" | ")
         );
         for (line, error) in lines.iter_mut().zip(errors) {
-            line.push((samples as f64, error));
+            line.points.push((samples as f64, error));
         }
     }
-    plot(&output, &lines)?;
+    let axes = Axes {
+        title: "Light from a textured lamp",
+        x: "samples",
+        y: "relative error (root mean square)",
+    };
+    std::fs::write(&output, logarithmic(&axes, &lines)?)?;
     println!("\n{output}");
     Ok(())
 }
@@ -148,27 +159,11 @@ impl Lamp {
 
 /// A shade: a bulging tube about the vertical.
 fn shade() -> Result<Mesh, Box<dyn Error>> {
-    let (columns, rows) = (96, 48);
-    let mut mesh = PolygonMesh::default();
-    let at = |x: u32, y: u32| [x as f64 / columns as f64, y as f64 / rows as f64];
-    for y in 0..=rows {
-        for x in 0..=columns {
-            let [u, v] = at(x, y);
-            let radius = 0.3 + 0.25 * libm::sin(0.5 * TAU * v);
-            let point = [radius * libm::cos(TAU * u), v, radius * libm::sin(TAU * u)];
-            mesh.positions.push(point.map(|c| c as f32));
-        }
-    }
-    for y in 0..rows {
-        for x in 0..columns {
-            mesh.face_sizes.push(4);
-            for [x, y] in [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]] {
-                mesh.corner_vertices.push(y * (columns + 1) + x);
-                mesh.corner_uvs.push(at(x, y).map(|c| c as f32));
-            }
-        }
-    }
-    Ok(Mesh::new(mesh)?)
+    let tube = PolygonMesh::sheet(96, 48, |u, v| {
+        let radius = 0.3 + 0.25 * libm::sin(0.5 * TAU * v);
+        [radius * libm::cos(TAU * u), v, radius * libm::sin(TAU * u)]
+    });
+    Ok(Mesh::new(tube)?)
 }
 
 /// A dim shade with some eighty bright holes.
@@ -186,43 +181,4 @@ fn pattern() -> Result<ImageMap, Box<dyn Error>> {
     };
     let texels = (0..size * size).map(texel).collect();
     Ok(ImageMap::new(size, size, 1, texels, false)?)
-}
-
-fn plot(path: &str, lines: &[Vec<(f64, f64)>; 3]) -> Result<(), Box<dyn Error>> {
-    let root = SVGBackend::new(path, (720, 440)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let errors = || lines.iter().flatten().map(|p| p.1);
-    let low = errors().fold(f64::INFINITY, f64::min) / 1.5;
-    let high = errors().fold(0.0, f64::max) * 1.5;
-    let mut chart = ChartBuilder::on(&root)
-        .caption("Light from a textured lamp", ("sans-serif", 18))
-        .margin(12)
-        .x_label_area_size(44)
-        .y_label_area_size(72)
-        .build_cartesian_2d((12.0..22_000.0).log_scale(), (low..high).log_scale())?;
-    chart
-        .configure_mesh()
-        .x_desc("samples")
-        .y_desc("relative error (root mean square)")
-        .y_label_formatter(&|y| format!("{y:.0e}"))
-        .light_line_style(BLACK.mix(0.05))
-        .draw()?;
-    let colors = [
-        RGBColor(213, 94, 0),
-        RGBColor(0, 158, 115),
-        RGBColor(0, 114, 178),
-    ];
-    for ((name, line), color) in NAMES.iter().zip(lines).zip(colors) {
-        let series = LineSeries::new(line.iter().copied(), color.stroke_width(2));
-        chart
-            .draw_series(series)?
-            .label(*name)
-            .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 16, y)], color));
-    }
-    chart
-        .configure_series_labels()
-        .background_style(WHITE)
-        .draw()?;
-    root.present()?;
-    Ok(())
 }

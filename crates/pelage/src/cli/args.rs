@@ -1,9 +1,11 @@
 //! What can be typed.
 
 use super::values::{frames, open_range, size, vector, whole};
+use anyhow::{Result, bail};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use pelage::Recipe;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Grow hair and fur on triangle meshes.
 ///
@@ -96,6 +98,48 @@ fn example_names() -> clap::builder::PossibleValuesParser {
     clap::builder::PossibleValuesParser::new(pelage::examples::names())
 }
 
+/// Which hairs of a recipe, and how.
+#[derive(Clone, Debug, Args)]
+pub struct RunArgs {
+    /// Only the hairs A to B - 1 of those; either end may be left out.
+    #[arg(long, value_parser = open_range, value_name = "A..B")]
+    pub range: Option<(Option<u64>, Option<u64>)>,
+    /// The frame whose posed surface to use.
+    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    pub frame: Option<i64>,
+    /// Seed to use instead of the recipe's hair.seed.
+    #[arg(long)]
+    pub seed: Option<u64>,
+    /// Threads to use; 0 is one a core. The bytes are the same for any number.
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    pub threads: usize,
+}
+
+impl RunArgs {
+    /// The recipe in the file `path` with what was asked for: `count` hairs, and the seed.
+    pub fn recipe(&self, path: &Path, count: Option<u64>) -> Result<Recipe> {
+        let mut recipe = Recipe::load(path)?;
+        recipe.hair.count = count.unwrap_or(recipe.hair.count);
+        recipe.hair.seed = self.seed.unwrap_or(recipe.hair.seed);
+        Ok(recipe)
+    }
+
+    /// The hairs A..B of `count`; `raise` says how to get more.
+    pub fn hairs(&self, count: u64, raise: &str) -> Result<Range<u64>> {
+        let (first, end) = self.range.unwrap_or((None, None));
+        let (first, end) = (first.unwrap_or(0), end.unwrap_or(count));
+        if first > end {
+            bail!("--range {first}..{end}: the first hair comes after the end");
+        }
+        if end > count {
+            bail!(
+                "--range {first}..{end}: there are only {count} hairs; raise {raise} or hair.count"
+            );
+        }
+        Ok(first..end)
+    }
+}
+
 /// `pelage generate`.
 #[derive(Debug, Args)]
 #[command(after_help = GENERATE_EXAMPLES)]
@@ -109,29 +153,20 @@ pub struct GenerateArgs {
     /// Hairs to make instead of the recipe's hair.count; the first N are the same.
     #[arg(long, value_parser = whole, value_name = "N")]
     pub count: Option<u64>,
-    /// Only the hairs A to B - 1 of those; either end may be left out.
-    #[arg(long, value_parser = open_range, value_name = "A..B")]
-    pub range: Option<(Option<u64>, Option<u64>)>,
-    /// The frame whose posed surface to use.
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// All frames from A to B into one file (for .rib: one file each).
     #[arg(
         long,
-        value_name = "F",
-        allow_negative_numbers = true,
-        conflicts_with = "frames"
+        value_parser = frames,
+        value_name = "A-B",
+        allow_hyphen_values = true,
+        conflicts_with = "frame"
     )]
-    pub frame: Option<i64>,
-    /// All frames from A to B into one file (for .rib: one file each).
-    #[arg(long, value_parser = frames, value_name = "A-B", allow_hyphen_values = true)]
     pub frames: Option<(i64, i64)>,
     /// Frames a second, for formats that store time.
     #[arg(long, default_value_t = 24.0)]
     pub fps: f64,
-    /// Seed to use instead of the recipe's hair.seed.
-    #[arg(long)]
-    pub seed: Option<u64>,
-    /// Threads to use; 0 is one a core. The bytes are the same for any number.
-    #[arg(long, default_value_t = 0, value_name = "N")]
-    pub threads: usize,
     /// Also render a picture of the (first frame's) hair on its surface.
     #[arg(long, value_hint = ValueHint::FilePath, value_name = "PNG")]
     pub picture: Option<PathBuf>,
@@ -167,18 +202,8 @@ pub struct SampleArgs {
     /// Roots to draw instead of the recipe's hair.count; the first N are the same.
     #[arg(short = 'n', long, value_parser = whole, value_name = "N")]
     pub count: Option<u64>,
-    /// Only the roots of the hairs A to B - 1; either end may be left out.
-    #[arg(long, value_parser = open_range, value_name = "A..B")]
-    pub range: Option<(Option<u64>, Option<u64>)>,
-    /// The frame whose posed surface to use.
-    #[arg(long, value_name = "F", allow_negative_numbers = true)]
-    pub frame: Option<i64>,
-    /// Seed to use instead of the recipe's hair.seed.
-    #[arg(long)]
-    pub seed: Option<u64>,
-    /// Threads to use; 0 is one a core. The bytes are the same for any number.
-    #[arg(long, default_value_t = 0, value_name = "N")]
-    pub threads: usize,
+    #[command(flatten)]
+    pub run: RunArgs,
     /// Also render a picture of the surface.
     #[arg(long, value_hint = ValueHint::FilePath, value_name = "PNG")]
     pub picture: Option<PathBuf>,
@@ -323,27 +348,6 @@ pub struct BenchArgs {
 pub enum Bench {
     /// Drawing roots: rates, preprocessing and memory against other methods.
     Sampling,
-}
-
-/// The hairs A..B of a groom of `count` hairs; `raise` says how to get more.
-pub fn hairs(
-    range: Option<(Option<u64>, Option<u64>)>,
-    count: u64,
-    raise: &str,
-) -> Result<Range<u64>, String> {
-    let (first, end) = range.unwrap_or((None, None));
-    let (first, end) = (first.unwrap_or(0), end.unwrap_or(count));
-    if first > end {
-        return Err(format!(
-            "--range {first}..{end}: the first hair comes after the end"
-        ));
-    }
-    if end > count {
-        return Err(format!(
-            "--range {first}..{end}: there are only {count} hairs; raise {raise} or hair.count"
-        ));
-    }
-    Ok(first..end)
 }
 
 #[cfg(test)]

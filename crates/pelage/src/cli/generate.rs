@@ -1,11 +1,12 @@
 //! `pelage generate`: a recipe's hairs into a file.
 
-use super::args::{GenerateArgs, ViewArgs, hairs};
+use super::args::{GenerateArgs, ViewArgs};
+use super::files::{json, write};
 use super::picture;
 use super::progress::Bar;
-use super::say::{Say, bytes, grouped, spent};
+use super::say::{Made, Say, grouped, spent};
 use super::stats::Stats;
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use pelage::io::{WriteOptions, sink_for};
 use pelage::strands::{Collect, SinkError, Tee};
 use pelage::{Loaded, Recipe, Report, Sink, StrandBuffer, generate, load_with};
@@ -16,9 +17,7 @@ use std::time::{Duration, Instant};
 
 /// Generates as asked and says what was made.
 pub fn run(args: &GenerateArgs, say: &Say) -> Result<ExitCode> {
-    let mut recipe = Recipe::load(&args.recipe)?;
-    recipe.hair.count = args.count.unwrap_or(recipe.hair.count);
-    recipe.hair.seed = args.seed.unwrap_or(recipe.hair.seed);
+    let recipe = args.run.recipe(&args.recipe, args.count)?;
     let mut job = Job::new(recipe, args, say)?;
     let mut sink = sink_for(&args.output, &options(args.ribbons))?;
     let mut first = FirstFrame::default();
@@ -75,13 +74,13 @@ impl Job {
             Some((first, last)) => (first..=last).map(|f| f as f64).collect(),
             None => Vec::new(),
         };
-        let mut job = Self::load(recipe, args.threads, say)?;
-        job.request.hairs =
-            hairs(args.range, job.loaded.plan.count(), "--count").map_err(anyhow::Error::msg)?;
-        if frames.is_empty() && args.frame.is_none() && job.loaded.poses.source().is_animated() {
+        let mut job = Self::load(recipe, args.run.threads, say)?;
+        job.request.hairs = args.run.hairs(job.loaded.plan.count(), "--count")?;
+        if frames.is_empty() && args.run.frame.is_none() && job.loaded.poses.source().is_animated()
+        {
             bail!("surface.posed has a pose for each frame: say which with --frame or --frames");
         }
-        job.frame = args.frame.map_or(0.0, |f| f as f64);
+        job.frame = args.run.frame.map_or(0.0, |f| f as f64);
         job.request.info.frames = frames;
         if !(args.fps > 0.0 && args.fps.is_finite()) {
             bail!("--fps {}: expected a number above 0", args.fps);
@@ -142,8 +141,6 @@ impl Job {
 
     /// What was made, in two lines or three.
     pub fn tell(&self, report: &Report, output: &Path, say: &Say) {
-        let rate = (self.hairs() * self.frames() as u64) as f64
-            / self.generate_time.as_secs_f64().max(1e-9);
         say.line(format_args!(
             "{} hairs, {} vertices from {} guides on {} triangles{}",
             grouped(report.strands),
@@ -163,14 +160,12 @@ impl Job {
                 grouped(report.dropped.without_guides),
             ));
         }
-        let size = std::fs::metadata(output).map_or(String::new(), |m| bytes(m.len()) + ", ");
-        say.line(format_args!(
-            "{} ({size}loaded in {}, generated in {}, {} hairs/s)",
-            output.display(),
-            spent(self.load_time),
-            spent(self.generate_time),
-            grouped(rate as u64),
-        ));
+        say.line(Made {
+            output,
+            load: self.load_time,
+            done: ("generated", self.generate_time),
+            count: (self.hairs() * self.frames() as u64, "hairs"),
+        });
     }
 
     fn stats(&self, report: &Report) -> Stats {
@@ -241,16 +236,10 @@ impl Sink for FirstFrame {
 }
 
 fn write_stats(stats: &Stats, path: &Path) -> Result<()> {
-    let mut text = serde_json::to_string_pretty(stats)?;
-    text.push('\n');
+    let text = json(stats)?;
     if path == Path::new("-") {
         std::io::stdout().lock().write_all(text.as_bytes())?;
         return Ok(());
     }
-    let write = || {
-        let mut file = pelage::io::AtomicFile::create(path)?;
-        file.write_all(text.as_bytes())?;
-        file.commit()
-    };
-    write().with_context(|| format!("cannot write {}", path.display()))
+    write(path, &text)
 }

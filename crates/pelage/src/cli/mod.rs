@@ -6,6 +6,7 @@
 mod args;
 mod bench;
 mod demo;
+mod files;
 mod generate;
 mod init;
 mod inspect;

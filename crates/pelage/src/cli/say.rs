@@ -1,7 +1,8 @@
 //! Words for people: results on standard output, everything else on standard error.
 
-use std::fmt::Display;
+use std::fmt::{Display, Formatter};
 use std::io::Write;
+use std::path::Path;
 use std::time::Duration;
 
 /// Prints, unless it was asked to be quiet.
@@ -46,6 +47,35 @@ impl Say {
             }
             said = cause;
         }
+    }
+}
+
+/// A file that was written and how fast: what was done to make `count` of `what`.
+pub struct Made<'a> {
+    /// The file.
+    pub output: &'a Path,
+    /// Time to load what was needed.
+    pub load: Duration,
+    /// What was done, and the time it took.
+    pub done: (&'static str, Duration),
+    /// How many were made, and of what.
+    pub count: (u64, &'static str),
+}
+
+impl Display for Made<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        // Where nothing was written there is no size to tell.
+        let size = std::fs::metadata(self.output).map_or(String::new(), |m| bytes(m.len()) + ", ");
+        let ((done, time), (count, what)) = (self.done, self.count);
+        let rate = count as f64 / time.as_secs_f64().max(1e-9);
+        write!(
+            f,
+            "{} ({size}loaded in {}, {done} in {}, {} {what}/s)",
+            self.output.display(),
+            spent(self.load),
+            spent(time),
+            grouped(rate as u64),
+        )
     }
 }
 

@@ -3,6 +3,7 @@
 // Clippy's exception for tests does not reach the helpers of an integration test.
 #![allow(clippy::unwrap_used)]
 
+mod bench;
 mod groom;
 mod sample;
 

@@ -2,7 +2,7 @@
 
 use pelage::surface::{ImageMap, hash};
 
-/// A density map by its name; `None` is density 1 without a map.
+/// A density map by its name.
 pub struct Map {
     pub name: &'static str,
     pub image: ImageMap,

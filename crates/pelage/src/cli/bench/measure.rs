@@ -43,9 +43,15 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// As many samples as fit, by drawing more and more of them with `draw`, which tells
-    /// the seconds it took.
-    pub fn samples_for(&self, draw: &mut impl FnMut(u64) -> f64) -> u64 {
+    /// As many samples as fit, and the seconds of the fastest run that drew them with
+    /// `draw`, which tells the seconds it took.
+    pub fn best(&self, mut draw: impl FnMut(u64) -> f64) -> (u64, f64) {
+        let samples = self.samples_for(&mut draw);
+        let runs = (0..self.runs).map(|_| draw(samples));
+        (samples, runs.fold(f64::INFINITY, f64::min))
+    }
+
+    fn samples_for(&self, draw: &mut impl FnMut(u64) -> f64) -> u64 {
         let mut samples = 64;
         loop {
             let fits = self.seconds * samples as f64 / draw(samples).max(1e-9);
@@ -71,11 +77,17 @@ pub fn measure(
         .num_threads(threads)
         .build()
         .expect("a thread pool");
-    let started = Instant::now();
-    let prepared = pool.install(|| prepare(method, &surface.mesh, map));
-    let preprocess_seconds = started.elapsed().as_secs_f64();
+    let prepare = |_| {
+        let started = Instant::now();
+        let prepared = pool.install(|| prepare(method, &surface.mesh, map));
+        (started.elapsed().as_secs_f64(), prepared)
+    };
+    let (preprocess_seconds, prepared) = (0..effort.runs)
+        .map(prepare)
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .expect("one run at least");
     let mut roots = vec![SurfacePoint::default(); 1 << 14];
-    let mut draw = |samples: u64| {
+    let draw = |samples: u64| {
         roots.resize(samples as usize, SurfacePoint::default());
         let started = Instant::now();
         let share = (samples as usize).div_ceil(threads);
@@ -87,10 +99,7 @@ pub fn measure(
         });
         started.elapsed().as_secs_f64()
     };
-    let samples = effort.samples_for(&mut draw);
-    let seconds = (0..effort.runs)
-        .map(|_| draw(samples))
-        .fold(f64::INFINITY, f64::min);
+    let (samples, seconds) = effort.best(draw);
     Row {
         mesh: surface.name,
         triangles: surface.mesh.triangles().len(),

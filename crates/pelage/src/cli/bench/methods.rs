@@ -35,6 +35,18 @@ pub fn sampler(mesh: &Mesh, map: &Map) -> RootSampler {
     RootSampler::new(mesh, &density, 1).expect("some density")
 }
 
+/// Where the share of each element begins, in fractions of 2^64: the sum to bisect.
+pub fn starts(distribution: &Distribution) -> Vec<u64> {
+    (0..distribution.len())
+        .map(|i| distribution.share(i).0)
+        .collect()
+}
+
+/// Bytes of the pieces of `sampler`, found by `table` instead of its distribution.
+fn bytes_with<T>(sampler: &RootSampler, table: &[T]) -> usize {
+    sampler.bytes() - sampler.distribution().bytes() + size_of_val(table)
+}
+
 /// What Pelage does: [`RootSampler::fill`].
 struct Guided(RootSampler);
 
@@ -57,9 +69,8 @@ struct Bisection {
 impl Bisection {
     fn new(mesh: &Mesh, map: &Map) -> Self {
         let sampler = sampler(mesh, map);
-        let all = sampler.distribution();
         Self {
-            starts: (0..all.len()).map(|i| all.share(i).0).collect(),
+            starts: starts(sampler.distribution()),
             sampler,
         }
     }
@@ -78,7 +89,7 @@ impl Method for Bisection {
     }
 
     fn bytes(&self) -> usize {
-        self.sampler.bytes() - self.sampler.distribution().bytes() + 8 * self.starts.len()
+        bytes_with(&self.sampler, &self.starts)
     }
 }
 
@@ -133,7 +144,7 @@ impl Method for Alias {
     }
 
     fn bytes(&self) -> usize {
-        self.sampler.bytes() - self.sampler.distribution().bytes() + 8 * self.columns.len()
+        bytes_with(&self.sampler, &self.columns)
     }
 }
 

@@ -3,6 +3,7 @@
 
 use super::maps::Map;
 use super::measure::Effort;
+use super::methods::starts;
 use pelage::surface::{Distribution, hash};
 use std::hint::black_box;
 use std::time::Instant;
@@ -28,9 +29,7 @@ pub fn by_cells(weights: &[f64], effort: Effort) -> Vec<f64> {
 pub fn sky(map: &Map, effort: Effort) -> [f64; 2] {
     let weights = sky_weights(map);
     let distribution = Distribution::new(&weights).expect("weights");
-    let starts: Vec<u64> = (0..distribution.len())
-        .map(|i| distribution.share(i).0)
-        .collect();
+    let starts = starts(&distribution);
     [
         rate(effort, |fraction| distribution.pick(fraction).index),
         rate(effort, |fraction| {
@@ -52,15 +51,11 @@ fn sky_weights(map: &Map) -> Vec<f64> {
 }
 
 fn rate(effort: Effort, pick: impl Fn(u64) -> usize) -> f64 {
-    let mut run = |count: u64| {
+    let (count, seconds) = effort.best(|count| {
         let started = Instant::now();
         let sum = (0..count).fold(0, |sum: usize, i| sum.wrapping_add(pick(hash(i))));
         black_box(sum);
         started.elapsed().as_secs_f64()
-    };
-    let count = effort.samples_for(&mut run);
-    let seconds = (0..effort.runs)
-        .map(|_| run(count))
-        .fold(f64::INFINITY, f64::min);
+    });
     count as f64 / seconds / 1e6
 }

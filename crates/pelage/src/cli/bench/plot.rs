@@ -73,6 +73,8 @@ fn draw(axes: &Axes, lines: &[Line], text: &mut String) -> Result<(), Box<dyn st
     }
     chart
         .configure_series_labels()
+        // Where errors that fall, and rates that fall off, leave room.
+        .position(SeriesLabelPosition::LowerLeft)
         .background_style(WHITE.mix(0.85))
         .border_style(BLACK.mix(0.2))
         .draw()?;

@@ -1,11 +1,13 @@
 //! `pelage bench sampling`: the tables of document 004, section 4.1, measured again.
 
-use super::maps::{map, maps};
+use super::maps::{Map, map, maps};
 use super::measure::{Effort, Row, measure};
 use super::methods::{METHODS, sampler};
+use super::order::{self, Evenness};
 use super::picks;
 use super::plot::{Axes, Line, logarithmic};
-use super::surfaces::{Surface, surfaces};
+use super::surfaces::{Surface, first_surface, surfaces};
+use crate::cli::generate::threads_of;
 use crate::cli::progress::Bar;
 use crate::cli::say::Say;
 use anyhow::Result;
@@ -33,6 +35,8 @@ pub struct Results {
     pub sizes: Vec<Row>,
     /// Our method for several numbers of threads.
     pub threads: Vec<Row>,
+    /// How evenly roots are spread by the order of the pieces.
+    pub evenness: Vec<Evenness>,
     /// Picks a second by the size of the grid.
     pub cells: Vec<(&'static str, Vec<f64>)>,
     /// Picks a second from skies, with and without the grid.
@@ -53,23 +57,22 @@ pub fn run(quick: bool, say: &Say) -> Results {
             runs: 3,
         },
     };
-    let mut surfaces = surfaces();
-    if quick {
-        surfaces.truncate(1);
-    }
+    let surfaces = surfaces().take(if quick { 1 } else { usize::MAX });
     let maps = maps(if quick { 256 } else { MAP_SIZE });
     let total = surfaces.len() * maps.len() * METHODS.len();
     let bar = Bar::new(say, total as u64, "measurements");
     let mut rates = Vec::new();
-    for surface in &surfaces {
+    let mut evenness = Vec::new();
+    for surface in surfaces {
         for map in &maps {
             for method in METHODS {
-                rates.push(measure(surface, map, method, 1, effort));
+                rates.push(measure(&surface, map, method, 1, effort));
                 bar.set(rates.len() as u64);
             }
         }
+        evenness.extend(order::measure(&surface, &maps, quick));
     }
-    let first = &surfaces[0];
+    let first = &first_surface();
     let weights = |map| {
         let sampler = sampler(&first.mesh, map);
         let all = sampler.distribution();
@@ -88,6 +91,7 @@ pub fn run(quick: bool, say: &Say) -> Results {
             .iter()
             .map(|map| (map.name, picks::sky(map, effort)))
             .collect(),
+        evenness,
         rates,
     }
 }
@@ -106,11 +110,18 @@ fn by_size(surface: &Surface, smallest: u32, effort: Effort) -> Vec<Row> {
         .into()
 }
 
-fn by_threads(surface: &Surface, maps: &[super::maps::Map], effort: Effort) -> Vec<Row> {
-    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+fn by_threads(surface: &Surface, maps: &[Map], effort: Effort) -> Vec<Row> {
+    let cores = threads_of(0);
     let doubled = std::iter::successors(Some(1), |n| Some(n * 2));
-    let counts: Vec<usize> = doubled.take_while(|&n| n <= cores).collect();
-    let named = |name: &&super::maps::Map| ["uniform", "embers"].contains(&name.name);
+    let below = doubled.take_while(|&n| n < cores);
+    let counts: Vec<usize> = below.chain([cores]).collect();
+    let named = |name: &&Map| ["uniform", "embers"].contains(&name.name);
+    // Shorter runs, and more: another program on a core slows two threads more than one.
+    let effort = Effort {
+        seconds: effort.seconds / 8.0,
+        runs: effort.runs * 8,
+        ..effort
+    };
     maps.iter()
         .filter(named)
         .flat_map(|map| counts.iter().map(move |&n| (map, n)))
@@ -130,7 +141,7 @@ impl Results {
 
     /// The tables and plots as Markdown, with what they are.
     pub fn page(&self) -> String {
-        let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+        let cores = threads_of(0);
         let version = env!("CARGO_PKG_VERSION");
         format!(
             "# Sampling\n\nMade by `pelage bench sampling -o docs/results --json \
@@ -174,17 +185,8 @@ impl Results {
                 size = row.map_size,
             )?;
         }
-        writeln!(text, "\n## Threads\n")?;
-        writeln!(text, "| map | threads | M samples/s |\n|---|---|---|")?;
-        for row in &self.threads {
-            writeln!(
-                text,
-                "| {} | {} | {:.1} |",
-                row.map,
-                row.threads,
-                row.rate()
-            )?;
-        }
+        self.by_threads(text)?;
+        order::write_tables(&self.evenness, text)?;
         writeln!(
             text,
             "\n## Cells of the grid an element, million picks a second\n"
@@ -202,6 +204,30 @@ impl Results {
         for (map, [grid, bisection]) in &self.skies {
             let times = grid / bisection;
             writeln!(text, "| {map} | {grid:.1} | {bisection:.1} | {times:.1} |")?;
+        }
+        Ok(())
+    }
+
+    fn by_threads(&self, text: &mut String) -> std::fmt::Result {
+        writeln!(text, "\n## Threads\n")?;
+        writeln!(
+            text,
+            "| map | threads | M samples/s | times | preprocessing, ms | times |\n\
+            |---|---|---|---|---|---|"
+        )?;
+        for rows in self.threads.chunk_by(|a, b| a.map == b.map) {
+            for row in rows {
+                writeln!(
+                    text,
+                    "| {} | {} | {:.1} | {:.2} | {:.0} | {:.2} |",
+                    row.map,
+                    row.threads,
+                    row.rate(),
+                    row.rate() / rows[0].rate(),
+                    row.preprocess_seconds * 1e3,
+                    rows[0].preprocess_seconds / row.preprocess_seconds,
+                )?;
+            }
         }
         Ok(())
     }

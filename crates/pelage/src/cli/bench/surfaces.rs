@@ -10,43 +10,35 @@ pub struct Surface {
     pub mesh: Mesh,
 }
 
+/// A formula over the unit square, and the columns and rows of its grid.
+struct Shape(&'static str, [u32; 2], fn(f64, f64) -> [f64; 3]);
+
+const SHAPES: [Shape; 3] = [
+    Shape("torus", [264, 132], torus),
+    Shape("knot", [1000, 200], knot),
+    Shape("wrinkled ball", [1044, 522], wrinkled_ball),
+];
+
 /// The three surfaces of the tables: 70 thousand, 400 thousand and 1.09 million
-/// triangles, the last as many as document 004 took.
-pub fn surfaces() -> Vec<Surface> {
-    let surface = |name, columns, rows, shape: fn(f64, f64) -> [f64; 3]| Surface {
-        name,
-        mesh: sheet(columns, rows, shape),
-    };
-    vec![
-        surface("torus", 264, 132, torus),
-        surface("knot", 1000, 200, knot),
-        surface("wrinkled ball", 1044, 522, wrinkled_ball),
-    ]
+/// triangles, the last as many as document 004 took. Each is made when it is its turn.
+pub fn surfaces() -> impl ExactSizeIterator<Item = Surface> {
+    SHAPES.iter().map(Shape::build)
 }
 
-/// A grid over the unit square of texture, two triangles a cell. The corners come from
-/// formulas without rounding apart, so that every mesh is sound.
-fn sheet(columns: u32, rows: u32, shape: fn(f64, f64) -> [f64; 3]) -> Mesh {
-    let mut mesh = PolygonMesh::default();
-    let [across, up] = [columns, rows].map(|n| move |i: u32| i as f64 / n as f64);
-    for y in 0..=rows {
-        for x in 0..=columns {
-            let point = shape(across(x), up(y));
-            mesh.positions.push(point.map(|c| c as f32));
+/// The first of them.
+pub fn first_surface() -> Surface {
+    SHAPES[0].build()
+}
+
+impl Shape {
+    fn build(&self) -> Surface {
+        let Shape(name, [columns, rows], formula) = *self;
+        Surface {
+            name,
+            // The grid has faces, and the formulas give numbers.
+            mesh: Mesh::new(PolygonMesh::sheet(columns, rows, formula)).expect("a grid is a mesh"),
         }
     }
-    for y in 0..rows {
-        for x in 0..columns {
-            for corner in [[0, 0], [1, 0], [1, 1], [0, 0], [1, 1], [0, 1]] {
-                let [x, y] = [x + corner[0], y + corner[1]];
-                mesh.corner_vertices.push(y * (columns + 1) + x);
-                mesh.corner_uvs.push([across(x) as f32, up(y) as f32]);
-            }
-            mesh.face_sizes.extend([3, 3]);
-        }
-    }
-    // The grid has triangles, and every corner names a vertex of it.
-    Mesh::new(mesh).expect("a grid is a mesh")
 }
 
 fn torus(u: f64, v: f64) -> [f64; 3] {

@@ -3,11 +3,11 @@
 mod dots;
 mod paints;
 
-use super::args::{SampleArgs, Shown, hairs};
+use super::args::{SampleArgs, Shown};
 use super::generate::{options, threads_of};
 use super::picture::draw_scene;
 use super::progress::Bar;
-use super::say::{Say, bytes, grouped, spent};
+use super::say::{Made, Say, grouped, spent};
 use anyhow::{Result, bail};
 use dots::{Dots, FirstRoots};
 use paints::{DensityPaint, PiecePaint};
@@ -23,9 +23,7 @@ use std::time::{Duration, Instant};
 
 /// Draws roots as asked and says what was made.
 pub fn run(args: &SampleArgs, say: &Say) -> Result<ExitCode> {
-    let mut recipe = Recipe::load(&args.recipe)?;
-    recipe.hair.count = args.count.unwrap_or(recipe.hair.count);
-    recipe.hair.seed = args.seed.unwrap_or(recipe.hair.seed);
+    let recipe = args.run.recipe(&args.recipe, args.count)?;
     let mut sink = root_sink_for(&args.output, &options(false))?;
     let mut job = Job::load(recipe, args, say)?;
     let mut first = FirstRoots::default();
@@ -54,20 +52,20 @@ struct Job {
 impl Job {
     fn load(recipe: Recipe, args: &SampleArgs, say: &Say) -> Result<Self> {
         let started = Instant::now();
-        let wanted = hairs(args.range, recipe.hair.count, "-n").map_err(anyhow::Error::msg)?;
+        let wanted = args.run.hairs(recipe.hair.count, "-n")?;
         let mut loaded = load_roots(recipe)?;
         loaded.plan.notes().iter().for_each(|note| say.note(note));
-        if args.frame.is_none() && loaded.poses.source().is_animated() {
+        if args.run.frame.is_none() && loaded.poses.source().is_animated() {
             bail!("surface.posed has a pose for each frame: say which with --frame");
         }
-        let frame = args.frame.map_or(0.0, |f| f as f64);
+        let frame = args.run.frame.map_or(0.0, |f| f as f64);
         let pose = loaded
             .poses
             .pose(&loaded.recipe, loaded.plan.rest(), frame)?;
         Ok(Self {
             request: Request {
                 hairs: wanted,
-                threads: threads_of(args.threads),
+                threads: threads_of(args.run.threads),
                 info: loaded.info.clone(),
             },
             loaded,
@@ -100,15 +98,12 @@ impl Job {
             grouped(plan.rest().triangles().len() as u64),
             grouped(plan.sampler().map_or(0, |s| s.piece_count()) as u64),
         ));
-        let size = std::fs::metadata(output).map_or(String::new(), |m| bytes(m.len()) + ", ");
-        let rate = self.drawn as f64 / self.draw_time.as_secs_f64().max(1e-9);
-        say.line(format_args!(
-            "{} ({size}loaded in {}, drawn in {}, {} roots/s)",
-            output.display(),
-            spent(self.load_time),
-            spent(self.draw_time),
-            grouped(rate as u64),
-        ));
+        say.line(Made {
+            output,
+            load: self.load_time,
+            done: ("drawn", self.draw_time),
+            count: (self.drawn, "roots"),
+        });
     }
 
     fn draw(&self, args: &SampleArgs, first: &FirstRoots, output: &Path, say: &Say) -> Result<()> {
@@ -134,7 +129,7 @@ impl Job {
             up,
             &args.camera,
             plain_light(),
-            args.threads,
+            args.run.threads,
             output,
             say,
         )?;
