@@ -8,6 +8,9 @@ pub enum Wrap {
     Repeat,
     /// The border texels go on.
     Clamp,
+    /// The image and its mirror image take turns: upright in 0..1 and every second
+    /// tile from there, reflected in u, v or both between them.
+    Mirror,
 }
 
 impl Wrap {
@@ -233,6 +236,11 @@ fn wrapped(x: f64, size: u32, wrap: Wrap) -> u32 {
     match wrap {
         Wrap::Repeat => (x.rem_euclid(size as f64) as u32).min(size - 1),
         Wrap::Clamp => (x.max(0.0) as u32).min(size - 1),
+        Wrap::Mirror => {
+            let there_and_back = 2.0 * size as f64;
+            let x = x.rem_euclid(there_and_back);
+            (x.min(there_and_back - 1.0 - x) as u32).min(size - 1)
+        }
     }
 }
 
@@ -287,11 +295,25 @@ mod tests {
     }
 
     #[test]
+    fn mirroring_turns_every_second_tile_around() {
+        let at = |u, v| four().sample(u, v, 0, Wrap::Mirror);
+        for (u, v) in [(0.3, 0.6), (0.05, 0.9), (0.0, 1.0)] {
+            for (back_u, back_v) in [(-u, v), (2.0 - u, -v), (u + 2.0, 2.0 - v), (u, v - 4.0)] {
+                assert!((at(back_u, back_v) - at(u, v)).abs() < 1e-6);
+            }
+        }
+        // No seam: on the border, both sides are the border's texel.
+        assert_eq!(at(1.0, 0.75), 1.0);
+        assert_eq!(at(0.25, 0.0), 2.0);
+    }
+
+    #[test]
     fn coordinates_that_are_no_numbers_do_not_panic() {
         for bad in [f32::NAN, f32::INFINITY, -1e30] {
-            four().sample(bad, bad, 0, Wrap::Repeat);
-            four().sample(bad, bad, 0, Wrap::Clamp);
-            four().nearest(bad, bad, Wrap::Repeat);
+            for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
+                four().sample(bad, bad, 0, wrap);
+                four().nearest(bad, bad, wrap);
+            }
         }
     }
 

@@ -137,28 +137,35 @@ impl MapUse {
     }
 }
 
+/// What each wrap is called, and what it does.
+const WRAPS: [(Wrap, &str, &str); 3] = [
+    (
+        Wrap::Repeat,
+        "repeat",
+        "the image repeats outside 0..1 of the UVs",
+    ),
+    (Wrap::Clamp, "clamp", "the border texels go on"),
+    (
+        Wrap::Mirror,
+        "mirror",
+        "the image and its mirror image take turns, upright in 0..1",
+    ),
+];
+
 fn word_of(wrap: Wrap) -> &'static str {
-    match wrap {
-        Wrap::Repeat => "repeat",
-        Wrap::Clamp => "clamp",
-    }
+    let named = WRAPS.iter().find(|(named, ..)| *named == wrap);
+    named.map_or("", |(_, word, _)| word)
 }
 
 impl Entry for Wrap {
     fn read(&mut self, value: &Spanned<DeValue<'_>>, key: &str, _: Rule, reader: &mut Reader<'_>) {
-        if let Some(i) = word::position(value, key, &["repeat", "clamp"], reader) {
-            *self = [Wrap::Repeat, Wrap::Clamp][i];
+        if let Some(i) = word::position(value, key, &WRAPS.map(|(_, word, _)| word), reader) {
+            *self = WRAPS[i].0;
         }
     }
 
     fn schema(&self, _: Rule, _: &mut SchemaGenerator) -> Schema {
-        word::schema(
-            "repeat",
-            &[
-                ("repeat", "the image repeats outside 0..1"),
-                ("clamp", "the border texels go on"),
-            ],
-        )
+        word::schema(word_of(*self), &WRAPS.map(|(_, word, does)| (word, does)))
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
