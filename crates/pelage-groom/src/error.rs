@@ -1,6 +1,7 @@
 //! Why a groom cannot be compiled to a plan.
 
 use crate::guide::FarGuide;
+use crate::recipe::Channel;
 use pelage_surface::MeshError;
 use std::path::PathBuf;
 
@@ -40,15 +41,22 @@ pub enum PlanError {
     },
     /// A density below zero.
     #[error(
-        "texel (column {x}, row {y} from the top) is {value}; \
-        a density must be at least 0"
+        "{}: texel (column {x}, row {y} from the top, counted from 0), channel {channel}, \
+        is {value}; a density must be at least 0: paint it 0 or more, or read another channel",
+        .file.display()
     )]
     NegativeDensity {
+        /// The property.
+        key: String,
+        /// The image.
+        file: PathBuf,
         /// Column.
         x: u32,
         /// Row from the top.
         y: u32,
-        /// What was found.
+        /// Channel that the recipe reads.
+        channel: Channel,
+        /// What was found, decoded.
         value: f32,
     },
     /// No triangle has an area.
@@ -116,8 +124,9 @@ impl PlanError {
         match self {
             PlanError::Mesh(_) | PlanError::NoSurface => "surface.mesh",
             PlanError::Pose { .. } => "surface.posed",
-            PlanError::NoUvs { key, .. } | PlanError::MapNotLoaded { key, .. } => key,
-            PlanError::NegativeDensity { .. } => "roots.density",
+            PlanError::NoUvs { key, .. }
+            | PlanError::MapNotLoaded { key, .. }
+            | PlanError::NegativeDensity { key, .. } => key,
             PlanError::NoGuides
             | PlanError::FarGuides { .. }
             | PlanError::GuideNotFinite { .. }

@@ -21,11 +21,13 @@ mod guide_set;
 mod in_order;
 mod locator;
 mod maps;
+mod missing_tiles;
 mod plan;
 pub mod random;
 pub mod recipe;
 mod root_plan;
 pub mod stages;
+mod texture;
 
 pub use capture::{Capture, Dropped};
 pub use clock::{Clock, Stage};
@@ -39,3 +41,4 @@ pub use locator::{Locator, Near};
 pub use maps::{ColorField, Images, ScalarField};
 pub use plan::Plan;
 pub use root_plan::{RootPlan, write_roots};
+pub use texture::Texture;

@@ -8,7 +8,7 @@ use crate::guide_set::GuideSet;
 use crate::maps::{ColorField, FieldMaker, ScalarField};
 use crate::recipe::{self, GuideSource, Method, Recipe, Segments};
 use crate::{PlanError, RootPlan, grow};
-use pelage_surface::{Density, Mesh, PolygonMesh, RootSampler, VoxelRoots, Wrap};
+use pelage_surface::{Mesh, PolygonMesh, RootSampler, VoxelRoots};
 
 /// A groom compiled: everything that can fail has.
 #[derive(Clone, Debug)]
@@ -45,7 +45,7 @@ impl Plan {
         let rest = rest(groom.mesh, groom.keep_file_normals)?;
         let mut maker = FieldMaker::new(&groom.images, rest.has_uvs());
         let roots = RootPlan::on(rest, recipe, &mut maker)?;
-        let (count, notes) = (roots.count(), roots.notes().to_vec());
+        let (count, mut notes) = (roots.count(), roots.notes().to_vec());
         let RootPlan {
             rest,
             sampler,
@@ -53,6 +53,7 @@ impl Plan {
             ..
         } = roots;
         let fields = Fields::new(recipe, &mut maker)?;
+        notes.extend(maker.missing_tiles(recipe, &rest, |key| !RootPlan::needs(key)));
         let all = match (&sampler, recipe.guides.source()) {
             (_, Some(GuideSource::Curves(_))) => {
                 guide::bind(&rest, &groom.guides, tolerance(recipe, &rest))?
@@ -206,34 +207,6 @@ pub(crate) fn rest(mut polygons: PolygonMesh, keep_file_normals: bool) -> Result
     Ok(rest)
 }
 
-/// Draws roots on `rest` by `density`; `None` where no hair can grow.
-pub(crate) fn sampler(
-    density: &ScalarField,
-    rest: &Mesh,
-    seed: u64,
-) -> Result<Option<RootSampler>, PlanError> {
-    let (value, map) = density.parts();
-    if let Some((map, _)) = map {
-        refuse_negative(map)?;
-    }
-    let density = Density {
-        value,
-        map: map.map(|(map, wrap)| (map, 0, wrap)),
-    };
-    Ok(RootSampler::new(rest, &density, seed))
-}
-
-fn refuse_negative(map: &pelage_surface::ImageMap) -> Result<(), PlanError> {
-    match map.texels().iter().position(|t| *t < 0.0) {
-        None => Ok(()),
-        Some(texel) => Err(PlanError::NegativeDensity {
-            x: (texel % map.width() as usize) as u32,
-            y: (texel / map.width() as usize) as u32,
-            value: map.texels()[texel],
-        }),
-    }
-}
-
 /// Most segments of a hair: what the formats that count them in 16 bits can hold.
 const MOST_SEGMENTS: u32 = u16::MAX as u32;
 
@@ -270,13 +243,13 @@ pub(crate) fn groups(recipe: &Recipe, maker: &FieldMaker) -> Result<Groups, Plan
             _ => 1,
         }));
     };
-    let map = maker.image("groups.map", used)?;
+    let map = maker.texture("groups.map", used)?;
     match &recipe.groups.segments {
         Some(Segments::ByColor(listed)) => {
             let listed: Vec<_> = listed.iter().map(|(&color, &n)| (color, n)).collect();
-            Ok(Groups::listed(&map, Wrap::Repeat, &listed))
+            Ok(Groups::listed(&map, &listed))
         }
-        Some(Segments::All(n)) => Groups::found(&map, Wrap::Repeat, *n),
-        None => Groups::found(&map, Wrap::Repeat, 1),
+        Some(Segments::All(n)) => Groups::found(&map, *n),
+        None => Groups::found(&map, 1),
     }
 }

@@ -40,14 +40,19 @@ impl RootPlan {
         Self::on(rest, &groom.recipe, &mut maker)
     }
 
+    /// Whether the map of the property `key` says something of roots.
+    pub fn needs(key: &str) -> bool {
+        key.starts_with("roots.") || key.starts_with("groups.")
+    }
+
     pub(crate) fn on(
         rest: Mesh,
         recipe: &Recipe,
         maker: &mut FieldMaker,
     ) -> Result<Self, PlanError> {
-        let density = maker.scalar("roots.density", &recipe.roots.density)?;
-        let sampler = plan::sampler(&density, &rest, recipe.hair.seed)?;
-        let mut notes = Vec::new();
+        let density = maker.density("roots.density", &recipe.roots.density)?;
+        let sampler = density.sampler(&rest, recipe.hair.seed);
+        let mut notes = maker.missing_tiles(recipe, &rest, Self::needs);
         let degenerate = rest.degenerate_triangles();
         if degenerate > 0 {
             notes.push(format!("{degenerate} degenerate triangles grow no hair"));

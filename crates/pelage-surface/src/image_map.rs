@@ -152,7 +152,7 @@ impl ImageMap {
     pub fn sample(&self, u: f32, v: f32, channel: u32, wrap: Wrap) -> f32 {
         let channel = channel.min(self.channels - 1) as usize;
         self.around(u, v, wrap)
-            .blend(|x, y| self.texel(x, y)[channel])
+            .texels(|x, y| self.texel(x, y)[channel])
     }
 
     /// Bilinear colour at `(u, v)`: the first three channels, or the first alone as
@@ -161,7 +161,7 @@ impl ImageMap {
         let around = self.around(u, v, wrap);
         std::array::from_fn(|k| {
             let channel = if self.channels >= 3 { k } else { 0 };
-            around.blend(|x, y| self.texel(x, y)[channel])
+            around.texels(|x, y| self.texel(x, y)[channel])
         })
     }
 
@@ -180,7 +180,7 @@ impl ImageMap {
     }
 
     #[inline(always)]
-    fn around(&self, u: f32, v: f32, wrap: Wrap) -> Around {
+    pub(crate) fn around(&self, u: f32, v: f32, wrap: Wrap) -> Around {
         // f64: at u = 10 an f32 holds only a sixteenth of a texel of a large map.
         let x = u as f64 * self.width as f64 - 0.5;
         let y = (1.0 - v as f64) * self.height as f64 - 0.5;
@@ -195,22 +195,28 @@ impl ImageMap {
 }
 
 /// The four texels around a place and how far it lies between them.
-struct Around {
-    columns: [u32; 2],
-    rows: [u32; 2],
+pub(crate) struct Around {
+    pub columns: [u32; 2],
+    pub rows: [u32; 2],
     across: f32,
     down: f32,
 }
 
 impl Around {
-    /// Written as differences so that equal texels give that very value.
     #[inline(always)]
-    fn blend(&self, texel: impl Fn(u32, u32) -> f32) -> f32 {
-        let row = |y| {
-            let (a, b) = (texel(self.columns[0], y), texel(self.columns[1], y));
+    fn texels(&self, texel: impl Fn(u32, u32) -> f32) -> f32 {
+        self.blend(|i, j| texel(self.columns[i], self.rows[j]))
+    }
+
+    /// Mixes the four values `at(i, j)` of column `i` and row `j` of these. Written as
+    /// differences so that equal values give that very value.
+    #[inline(always)]
+    pub(crate) fn blend(&self, at: impl Fn(usize, usize) -> f32) -> f32 {
+        let row = |j| {
+            let (a, b) = (at(0, j), at(1, j));
             a + (b - a) * self.across
         };
-        let (a, b) = (row(self.rows[0]), row(self.rows[1]));
+        let (a, b) = (row(0), row(1));
         a + (b - a) * self.down
     }
 }

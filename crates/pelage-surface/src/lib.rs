@@ -19,6 +19,7 @@ mod sampler;
 mod sequence;
 mod subdivide;
 mod tangents;
+mod tiles;
 mod triangulate;
 mod voxels;
 
@@ -32,4 +33,5 @@ pub use pdf::RootPdf;
 pub use sampler::RootSampler;
 pub use sequence::{RootSequence, Spread, hash, radical_inverse};
 pub use subdivide::Density;
+pub use tiles::{TiledDensity, Tiles, tile_number};
 pub use voxels::VoxelRoots;

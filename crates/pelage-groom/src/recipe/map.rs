@@ -50,13 +50,13 @@ words! {
 /// A map and how it is read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapUse {
-    /// The image.
+    /// The image, or the images of a UDIM set ([`FilePath::is_tiled`]).
     pub path: FilePath,
     /// The channel read. `None` reads the whole colour (the default of colours
     /// and directions); numbers always have one, red unless the recipe says
     /// otherwise. A colour with a channel is grey of that channel.
     pub channel: Option<Channel>,
-    /// What lies outside 0..1 of the UVs; repeats by default.
+    /// What lies outside 0..1 of the UVs; repeats by default. A UDIM set has no wrap.
     pub wrap: Wrap,
     /// How codes are read. `None` leaves it to the image: 8-bit colour maps are
     /// sRGB, everything else is linear.
@@ -109,6 +109,11 @@ impl MapUse {
             }
         }
         using.path.read(path?, &map, Rule::ANY, reader);
+        if let Some(wrap) = table.get("wrap").filter(|_| using.path.is_tiled()) {
+            let message = "says nothing beside a map with <UDIM>, whose tiles \
+                are where their numbers say: leave it out";
+            reader.contradiction(&join(key, "wrap"), wrap.span(), message.to_owned());
+        }
         Some(using)
     }
 

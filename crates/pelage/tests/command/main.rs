@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod groom;
+mod maps;
 mod sample;
 
 use groom::{Folder, fails, pelage};
