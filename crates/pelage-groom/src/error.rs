@@ -2,7 +2,7 @@
 
 use crate::guide::FarGuide;
 use crate::recipe::Channel;
-use pelage_surface::MeshError;
+use pelage_surface::{Mesh, MeshError};
 use std::path::PathBuf;
 
 /// Why a groom cannot be compiled to a plan. Prints the reason; [`PlanError::key`] says
@@ -74,8 +74,12 @@ pub enum PlanError {
         /// The distance allowed.
         tolerance: f32,
     },
-    /// A guide with a vertex that is NaN or infinite.
-    #[error("vertex {vertex} of guide {index} is not finite")]
+    /// A guide with a vertex that is NaN, infinite or so far away that lengths overflow.
+    #[error(
+        "vertex {vertex} of guide {index} is not finite or has a coordinate over {limit:e}; \
+        scale the scene down",
+        limit = Mesh::FARTHEST
+    )]
     GuideNotFinite {
         /// Guide.
         index: usize,

@@ -48,7 +48,8 @@ pub enum MapError {
     },
     /// A texel that is NaN or infinite.
     #[error(
-        "texel (column {x}, row {y} from the top), channel {channel}, is {value}; maps must be finite"
+        "texel (column {x}, row {y} from the top, channel {channel}, counted from 0) is {value}; \
+        maps must be finite: paint over it"
     )]
     NotFinite {
         /// Column.
@@ -328,7 +329,8 @@ mod tests {
         let error = ImageMap::new(2, 1, 3, vec![0.0, 0.0, 0.0, 0.0, f32::NAN, 0.0], false);
         assert_eq!(
             error.unwrap_err().to_string(),
-            "texel (column 1, row 0 from the top), channel 1, is NaN; maps must be finite"
+            "texel (column 1, row 0 from the top, channel 1, counted from 0) is NaN; \
+            maps must be finite: paint over it"
         );
     }
 

@@ -5,6 +5,7 @@
 
 mod groom;
 mod maps;
+mod meshes;
 mod sample;
 
 use groom::{Folder, fails, pelage};

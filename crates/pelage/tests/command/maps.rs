@@ -59,6 +59,102 @@ impl Folder {
 }
 
 #[test]
+fn a_texel_that_is_no_density_is_named_with_its_key_file_place_channel_and_remedy() {
+    for (bad, said) in [
+        (f32::NAN, "NaN"),
+        (f32::INFINITY, "inf"),
+        (f32::NEG_INFINITY, "-inf"),
+    ] {
+        let folder = Folder::with_square("roots.density = { map = 'fur.exr', channel = 'g' }");
+        let mut numbers = [0.5; 18];
+        numbers[13] = bad;
+        folder.exr("fur.exr", 3, &numbers);
+        let expected = format!(
+            "error: groom.toml:1:17: roots.density: fur.exr: texel (column 1, row 1 from the \
+             top, channel 1, counted from 0) is {said}; maps must be finite: paint over it\n  \
+             |\n1 | roots.density = {{ map = 'fur.exr', channel = 'g' }}\n  \
+             |                 ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\n"
+        );
+        assert_eq!(folder.refusal(), expected);
+    }
+    let folder = Folder::with_square("roots.density = { map = 'fur.exr', channel = 'g' }");
+    let mut numbers = [0.5; 18];
+    numbers[16] = -0.25;
+    folder.exr("fur.exr", 3, &numbers);
+    assert_eq!(
+        folder.refusal(),
+        "error: groom.toml:1:17: roots.density: fur.exr: texel (column 2, row 1 from the top, \
+         counted from 0), channel g, is -0.25; a density must be at least 0: paint it 0 or \
+         more, or read another channel\n  \
+         |\n1 | roots.density = { map = 'fur.exr', channel = 'g' }\n  \
+         |                 ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\n"
+    );
+}
+
+#[test]
+fn a_map_that_cannot_be_read_is_named_with_its_key() {
+    let folder = Folder::with_square("scale.amount = { map = 'length.png' }");
+    let says = |words: &str| {
+        let found = folder.refusal();
+        assert!(found.contains("groom.toml:1:"), "{found}");
+        assert!(found.contains("scale.amount: length.png: "), "{found}");
+        assert!(found.contains(words), "{found}");
+    };
+    says("No such file");
+    folder.grey("whole.png", &[7; 3000]);
+    let whole = folder.bytes("whole.png");
+    for length in [0, 20, 40, whole.len() - 20] {
+        std::fs::write(folder.path("length.png"), &whole[..length]).unwrap();
+        says("");
+    }
+    folder.write("length.png", "a picture of a horse");
+    says("not an image that is read here: PNG, JPEG, TIFF, HDR or EXR");
+    std::fs::remove_file(folder.path("length.png")).unwrap();
+    std::fs::create_dir(folder.path("length.png")).unwrap();
+    says("this is a folder, not a file");
+}
+
+#[test]
+fn bits_of_a_map_do_not_matter_where_its_values_are_the_same() {
+    let folder = Folder::with_square("roots.density = { map = 'fur.png' }");
+    folder.grey("fur.png", &[0, 255, 255, 0]);
+    let hair = folder.arrays("hair.npz", &[]);
+    let codes = [0, u16::MAX, u16::MAX, 0];
+    let path = folder.path("fur.png");
+    write_png(path.as_ref(), 4, 1, 1, PngCodes::Sixteen(&codes)).unwrap();
+    assert!(folder.arrays("sixteen.npz", &[]) == hair);
+    // A format is told by its first bytes, not by its name.
+    folder.exr("fur.png", 1, &[0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0]);
+    assert!(folder.arrays("float.npz", &[]).root_uv == hair.root_uv);
+}
+
+#[test]
+fn a_black_map_gives_no_hair_and_says_so() {
+    let folder = Folder::with_square("roots.density = { map = 'fur.png' }");
+    folder.grey("fur.png", &[0; 16]);
+    assert!(
+        folder
+            .notes()
+            .contains("roots.density is 0 on the whole surface: no hair can grow")
+    );
+    assert!(folder.generate("null", &[]).starts_with("0 hairs"));
+    assert!(folder.arrays("none.npz", &[]).is_empty());
+}
+
+#[test]
+fn peaks_of_a_million_take_the_hairs_they_are_due() {
+    let folder = Folder::with_square("roots.density = { map = 'fur.exr' }");
+    let mut numbers = [1.0; 128];
+    numbers[17] = 1e6;
+    folder.exr("fur.exr", 1, &numbers);
+    let hair = folder.arrays("hair.npz", &[]);
+    // Column 17 of 64, the upper row, on both of the tiles that repeat.
+    let near = |uv: &[f32; 2]| (uv[0].fract() * 64.0 - 17.5).abs() < 3.0;
+    let at_peak = hair.root_uv.iter().filter(|uv| near(uv)).count();
+    assert!(at_peak > 1990, "{at_peak}");
+}
+
+#[test]
 fn a_set_of_tiles_is_found_in_its_folder_and_read_by_every_kind_of_property() {
     let folder = Folder::with_square(
         "roots.density = { map = 'fur.<UDIM>.png' }\n\
