@@ -1,7 +1,8 @@
 //! Why a groom cannot be compiled to a plan.
 
 use crate::guide::FarGuide;
-use pelage_surface::MeshError;
+use crate::recipe::Channel;
+use pelage_surface::{Mesh, MeshError};
 use std::path::PathBuf;
 
 /// Why a groom cannot be compiled to a plan. Prints the reason; [`PlanError::key`] says
@@ -40,15 +41,22 @@ pub enum PlanError {
     },
     /// A density below zero.
     #[error(
-        "texel (column {x}, row {y} from the top) is {value}; \
-        a density must be at least 0"
+        "{}: texel (column {x}, row {y} from the top, counted from 0), channel {channel}, \
+        is {value}; a density must be at least 0: paint it 0 or more, or read another channel",
+        .file.display()
     )]
     NegativeDensity {
+        /// The property.
+        key: String,
+        /// The image.
+        file: PathBuf,
         /// Column.
         x: u32,
         /// Row from the top.
         y: u32,
-        /// What was found.
+        /// Channel that the recipe reads.
+        channel: Channel,
+        /// What was found, decoded.
         value: f32,
     },
     /// No triangle has an area.
@@ -66,8 +74,12 @@ pub enum PlanError {
         /// The distance allowed.
         tolerance: f32,
     },
-    /// A guide with a vertex that is NaN or infinite.
-    #[error("vertex {vertex} of guide {index} is not finite")]
+    /// A guide with a vertex that is NaN, infinite or so far away that lengths overflow.
+    #[error(
+        "vertex {vertex} of guide {index} is not finite or has a coordinate over {limit:e}; \
+        scale the scene down",
+        limit = Mesh::FARTHEST
+    )]
     GuideNotFinite {
         /// Guide.
         index: usize,
@@ -127,8 +139,9 @@ impl PlanError {
         match self {
             PlanError::Mesh(_) | PlanError::NoSurface => "surface.mesh",
             PlanError::Pose { .. } => "surface.posed",
-            PlanError::NoUvs { key, .. } | PlanError::MapNotLoaded { key, .. } => key,
-            PlanError::NegativeDensity { .. } => "roots.density",
+            PlanError::NoUvs { key, .. }
+            | PlanError::MapNotLoaded { key, .. }
+            | PlanError::NegativeDensity { key, .. } => key,
             PlanError::TooMuchBlueNoise { .. } => "hair.count",
             PlanError::NoGuides
             | PlanError::FarGuides { .. }

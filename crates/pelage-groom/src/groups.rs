@@ -4,8 +4,9 @@
 //! to it, so that a soft brush or a lossy file makes no groups of its own.
 
 use crate::PlanError;
+use crate::texture::Texture;
 use pelage_curves::Vec2;
-use pelage_surface::{ImageMap, Wrap};
+use pelage_surface::{ImageMap, Tiles, Wrap};
 
 /// Most groups that a map may hold without its colours being listed.
 const MOST_GROUPS: usize = 256;
@@ -37,12 +38,18 @@ pub struct Groups {
 }
 
 #[derive(Clone, Debug)]
-struct GroupMap {
+enum GroupMap {
+    Image(Texels, Wrap),
+    /// The tiles, and the group where there is none.
+    Tiles(Tiles<Texels>, u16),
+}
+
+#[derive(Clone, Debug)]
+struct Texels {
     width: u32,
     height: u32,
-    wrap: Wrap,
     /// Group of each texel, rows from the top.
-    texels: Vec<u16>,
+    groups: Vec<u16>,
 }
 
 impl Groups {
@@ -58,7 +65,7 @@ impl Groups {
     }
 
     /// Groups by the colours of `map`, each with its number of segments.
-    pub fn listed(map: &ImageMap, wrap: Wrap, segments: &[([u8; 3], u32)]) -> Self {
+    pub fn listed(map: &Texture, segments: &[([u8; 3], u32)]) -> Self {
         let groups: Vec<Group> = segments
             .iter()
             .map(|&(color, segments)| Group {
@@ -67,15 +74,16 @@ impl Groups {
             })
             .collect();
         Self {
-            map: Some(assign(map, wrap, &groups)),
+            map: Some(GroupMap::new(map, &groups)),
             groups,
         }
     }
 
     /// A group for each colour found in `map`, all of `segments`.
-    pub fn found(map: &ImageMap, wrap: Wrap, segments: u32) -> Result<Self, PlanError> {
+    pub fn found(map: &Texture, segments: u32) -> Result<Self, PlanError> {
         let mut colors: Vec<[u8; 3]> = Vec::new();
-        for texel in texels(map) {
+        let images = map.images();
+        for texel in images.iter().flat_map(|(_, image)| codes(image)) {
             if let Err(at) = colors.binary_search(&texel) {
                 if colors.len() == MOST_GROUPS {
                     return Err(PlanError::TooManyGroups { limit: MOST_GROUPS });
@@ -84,7 +92,7 @@ impl Groups {
             }
         }
         let listed: Vec<_> = colors.into_iter().map(|color| (color, segments)).collect();
-        Ok(Self::listed(map, wrap, &listed))
+        Ok(Self::listed(map, &listed))
     }
 
     /// The same groups, each of `segments`; at least 1.
@@ -108,35 +116,58 @@ impl Groups {
 }
 
 impl GroupMap {
+    fn new(map: &Texture, groups: &[Group]) -> Self {
+        match map {
+            Texture::Image(image, wrap) => Self::Image(Texels::new(image, groups), *wrap),
+            Texture::Tiles(tiles) => Self::Tiles(
+                tiles.map(|image| Texels::new(image, groups)),
+                nearest([0; 3], groups),
+            ),
+        }
+    }
+
     fn at(&self, uv: Vec2) -> u32 {
-        let [x, y] = self.wrap.texel([uv.x, uv.y], [self.width, self.height]);
-        self.texels[y as usize * self.width as usize + x as usize] as u32
+        let group = match self {
+            Self::Image(texels, wrap) => texels.at([uv.x, uv.y], *wrap),
+            Self::Tiles(tiles, elsewhere) => tiles
+                .at(uv.x, uv.y)
+                .map_or(*elsewhere, |(texels, uv)| texels.at(uv, Wrap::Clamp)),
+        };
+        group as u32
     }
 }
 
-fn assign(map: &ImageMap, wrap: Wrap, groups: &[Group]) -> GroupMap {
+impl Texels {
+    fn new(image: &ImageMap, groups: &[Group]) -> Self {
+        Self {
+            width: image.width(),
+            height: image.height(),
+            groups: codes(image).map(|code| nearest(code, groups)).collect(),
+        }
+    }
+
+    fn at(&self, uv: [f32; 2], wrap: Wrap) -> u16 {
+        let [x, y] = wrap.texel(uv, [self.width, self.height]);
+        self.groups[y as usize * self.width as usize + x as usize]
+    }
+}
+
+/// The group whose colour is nearest to `code`.
+fn nearest(code: [u8; 3], groups: &[Group]) -> u16 {
     let distance = |a: [u8; 3], b: [u8; 3]| -> u32 {
         (0..3).map(|k| (a[k].abs_diff(b[k]) as u32).pow(2)).sum()
     };
-    let nearest = |texel: [u8; 3]| {
-        let colors = groups
-            .iter()
-            .map(|g| distance(texel, g.color.unwrap_or([0; 3])));
-        colors
-            .enumerate()
-            .min_by_key(|&(_, d)| d)
-            .map_or(0, |(i, _)| i as u16)
-    };
-    GroupMap {
-        width: map.width(),
-        height: map.height(),
-        wrap,
-        texels: texels(map).map(nearest).collect(),
-    }
+    let colors = groups
+        .iter()
+        .map(|g| distance(code, g.color.unwrap_or([0; 3])));
+    colors
+        .enumerate()
+        .min_by_key(|&(_, d)| d)
+        .map_or(0, |(i, _)| i as u16)
 }
 
-/// Colour codes of a map's texels; grey maps give equal parts.
-fn texels(map: &ImageMap) -> impl Iterator<Item = [u8; 3]> {
+/// Colour codes of an image's texels; grey ones have equal parts.
+fn codes(map: &ImageMap) -> impl Iterator<Item = [u8; 3]> {
     let channels = map.channels() as usize;
     map.texels().chunks_exact(channels).map(move |t| {
         let code = |k: usize| (t[if channels >= 3 { k } else { 0 }] * 255.0 + 0.5) as u8;
@@ -147,19 +178,21 @@ fn texels(map: &ImageMap) -> impl Iterator<Item = [u8; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::Arc;
 
-    fn halves() -> ImageMap {
+    fn clamped(width: u32, channels: u32, texels: Vec<f32>) -> Texture {
+        let image = ImageMap::new(width, 1, channels, texels, true).unwrap();
+        Texture::Image(Arc::new(image), Wrap::Clamp)
+    }
+
+    fn halves() -> Texture {
         // Left texel almost red, right one blue.
-        ImageMap::new(2, 1, 3, vec![0.95, 0.02, 0.0, 0.0, 0.0, 1.0], true).unwrap()
+        clamped(2, 3, vec![0.95, 0.02, 0.0, 0.0, 0.0, 1.0])
     }
 
     #[test]
     fn a_texel_belongs_to_the_nearest_listed_colour() {
-        let groups = Groups::listed(
-            &halves(),
-            Wrap::Clamp,
-            &[([0, 0, 255], 6), ([255, 0, 0], 12)],
-        );
+        let groups = Groups::listed(&halves(), &[([0, 0, 255], 6), ([255, 0, 0], 12)]);
         assert_eq!(groups.at(Vec2::new(0.25, 0.5)), 1);
         assert_eq!(groups.at(Vec2::new(0.75, 0.5)), 0);
         assert_eq!(groups.all()[1].segments, 12);
@@ -167,7 +200,7 @@ mod tests {
 
     #[test]
     fn colours_are_found_in_order() {
-        let groups = Groups::found(&halves(), Wrap::Clamp, 4).unwrap();
+        let groups = Groups::found(&halves(), 4).unwrap();
         assert_eq!(groups.all().len(), 2);
         assert_eq!(groups.all()[0].name(), "#0000ff");
     }
@@ -175,13 +208,13 @@ mod tests {
     #[test]
     fn a_photograph_is_no_map_of_groups() {
         let texels = (0..512).map(|i| (i % 300) as f32 / 300.0).collect();
-        let noise = ImageMap::new(512, 1, 1, texels, false).unwrap();
-        let few = Groups::found(&noise, Wrap::Clamp, 4);
+        let noise = clamped(512, 1, texels);
+        let few = Groups::found(&noise, 4);
         assert!(few.is_ok(), "256 grey codes at most");
         let texels = (0..3 * 512)
             .map(|i| (i * 37 % 256) as f32 / 255.0)
             .collect();
-        let noise = ImageMap::new(512, 1, 3, texels, false).unwrap();
-        assert!(Groups::found(&noise, Wrap::Clamp, 4).is_ok_and(|g| g.all().len() <= 256));
+        let noise = clamped(512, 3, texels);
+        assert!(Groups::found(&noise, 4).is_ok_and(|g| g.all().len() <= 256));
     }
 }

@@ -10,11 +10,11 @@ use crate::guide::Guide;
 use crate::maps::{FieldMaker, ScalarField};
 use crate::random::{Channel, uniform};
 use crate::recipe::{Comb, Grow};
+use crate::texture::Texture;
 use crate::{PlanError, maps::Images};
 use pelage_curves::{Vec2, Vec3};
-use pelage_surface::{ImageMap, Mesh, RootFrame, RootSampler, Wrap, radical_inverse};
+use pelage_surface::{Mesh, RootFrame, RootSampler, radical_inverse};
 use rayon::prelude::*;
-use std::sync::Arc;
 
 /// Grows the guides of `grow` on `mesh` at rest.
 pub(crate) fn grow(
@@ -58,14 +58,14 @@ fn comb_field(grow: &Grow, fields: &FieldMaker) -> Result<CombField, PlanError> 
     Ok(match &grow.comb {
         None => CombField::Tangent,
         Some(Comb::Vector(v)) => CombField::Vector(Vec3::from(*v)),
-        Some(Comb::Map(used)) => CombField::Map(fields.image("guides.grow.comb", used)?, used.wrap),
+        Some(Comb::Map(used)) => CombField::Map(fields.texture("guides.grow.comb", used)?),
     })
 }
 
 enum CombField {
     Tangent,
     Vector(Vec3),
-    Map(Arc<ImageMap>, Wrap),
+    Map(Texture),
 }
 
 impl CombField {
@@ -74,8 +74,9 @@ impl CombField {
         let local = match self {
             CombField::Tangent => Vec3::X,
             CombField::Vector(v) => frame.local(v.normalize_or_zero()),
-            CombField::Map(map, wrap) => {
-                let code = |channel| map.sample(uv.x, uv.y, channel, *wrap) * 2.0 - 1.0;
+            CombField::Map(map) => {
+                // 0.5 is no direction, and so is a tile that is not there.
+                let code = |channel| map.sample(uv, channel).unwrap_or(0.5) * 2.0 - 1.0;
                 Vec3::new(code(0), code(1), 0.0)
             }
         };

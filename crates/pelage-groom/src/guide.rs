@@ -86,7 +86,10 @@ fn bind_one(
     index: usize,
     curve: &[Vec3],
 ) -> Result<(Guide, f32), PlanError> {
-    if let Some(vertex) = curve.iter().position(|p| !p.is_finite()) {
+    if let Some(vertex) = curve
+        .iter()
+        .position(|p| !p.is_finite() || p.abs().max_element() > Mesh::FARTHEST)
+    {
         return Err(PlanError::GuideNotFinite { index, vertex });
     }
     let Some(&first) = curve.first() else {

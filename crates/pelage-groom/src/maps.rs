@@ -6,20 +6,24 @@
 
 use crate::PlanError;
 use crate::recipe::{Blend, Channel, ColorProperty, MapSpace, MapUse, ScalarProperty};
+use crate::texture::Texture;
 use pelage_curves::Vec2;
-use pelage_surface::{Displacement, ImageMap, Wrap, linear_from_srgb};
+use pelage_surface::{
+    Density, Displacement, ImageMap, Mesh, RootSampler, TiledDensity, Tiles, linear_from_srgb,
+};
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The images a groom uses, by the path that opens them.
+/// The images a groom uses, by the path that opens them. Those of a UDIM set stand there
+/// one by one.
 pub type Images = HashMap<PathBuf, Arc<ImageMap>>;
 
 /// A number over the surface.
 #[derive(Clone, Debug)]
 pub struct ScalarField {
     value: f32,
-    map: Option<(Arc<ImageMap>, Wrap)>,
+    map: Option<Texture>,
 }
 
 impl ScalarField {
@@ -28,7 +32,7 @@ impl ScalarField {
     pub fn at(&self, uv: Vec2) -> f32 {
         match &self.map {
             None => self.value,
-            Some((map, wrap)) => self.value * map.sample(uv.x, uv.y, 0, *wrap),
+            Some(map) => self.value * map.sample(uv, 0).unwrap_or(0.0),
         }
     }
 
@@ -42,12 +46,7 @@ impl ScalarField {
     /// value are not, and lie where the value does, as the document's forward difference
     /// (004, 2.2.3) does not.
     pub(crate) fn displacement(&self, uv: Vec2) -> Displacement {
-        let Some((map, _)) = &self.map else {
-            return Displacement {
-                height: self.value,
-                slope: Vec2::ZERO,
-            };
-        };
+        let texel = self.map.as_ref().and_then(|map| map.texel(uv));
         let across = |half: Vec2| {
             let (before, after) = (uv - half, uv + half);
             // Not 2 · half: far from 0, coordinates are coarse.
@@ -56,19 +55,27 @@ impl ScalarField {
                 step => (self.at(after) - self.at(before)) / step,
             }
         };
-        let [half_u, half_v] = [map.width(), map.height()].map(|n| 0.5 / n as f32);
+        let slope = |texel: Vec2| {
+            let half = texel / 2.0;
+            Vec2::new(across(Vec2::X * half.x), across(Vec2::Y * half.y))
+        };
         Displacement {
             height: self.at(uv),
-            slope: Vec2::new(across(Vec2::X * half_u), across(Vec2::Y * half_v)),
+            slope: texel.map_or(Vec2::ZERO, slope),
         }
     }
 
-    /// The factor and the single-channel map, for whoever samples by it.
-    pub fn parts(&self) -> (f32, Option<(&ImageMap, Wrap)>) {
-        (
-            self.value,
-            self.map.as_ref().map(|(map, wrap)| (&**map, *wrap)),
-        )
+    /// Draws roots on `rest` with this as their density; `None` where no hair can grow.
+    pub(crate) fn sampler(&self, rest: &Mesh, seed: u64) -> Option<RootSampler> {
+        let value = self.value;
+        let map = match &self.map {
+            Some(Texture::Tiles(tiles)) => {
+                return RootSampler::tiled(rest, &TiledDensity { value, tiles }, seed);
+            }
+            Some(Texture::Image(image, wrap)) => Some((&**image, 0, *wrap)),
+            None => None,
+        };
+        RootSampler::new(rest, &Density { value, map }, seed)
     }
 }
 
@@ -76,7 +83,7 @@ impl ScalarField {
 #[derive(Clone, Debug)]
 pub struct ColorField {
     value: [f32; 3],
-    map: Option<(Arc<ImageMap>, Wrap, Blend)>,
+    map: Option<(Texture, Blend)>,
 }
 
 impl ColorField {
@@ -84,8 +91,8 @@ impl ColorField {
     #[inline]
     pub fn at(&self, uv: Vec2) -> [f32; 3] {
         let mut color = self.value;
-        if let Some((map, wrap, blend)) = &self.map {
-            let texel = map.sample_rgb(uv.x, uv.y, *wrap);
+        if let Some((map, blend)) = &self.map {
+            let texel = map.sample_rgb(uv).unwrap_or_default();
             for (c, t) in color.iter_mut().zip(texel) {
                 match blend {
                     Blend::Add => *c += t,
@@ -99,9 +106,9 @@ impl ColorField {
 
 /// Turns properties into fields, sharing decoded maps.
 pub(crate) struct FieldMaker<'a> {
-    images: &'a Images,
+    pub(crate) images: &'a Images,
     has_uvs: bool,
-    decoded: HashMap<(PathBuf, Channel, bool), Arc<ImageMap>>,
+    decoded: HashMap<(PathBuf, Channel, bool), Texture>,
 }
 
 impl<'a> FieldMaker<'a> {
@@ -118,14 +125,26 @@ impl<'a> FieldMaker<'a> {
         key: &str,
         property: &ScalarProperty,
     ) -> Result<ScalarField, PlanError> {
-        let map = match &property.map {
-            None => None,
-            Some(used) => Some((self.channel(key, used)?, used.wrap)),
-        };
+        let map = property.map.as_ref();
         Ok(ScalarField {
             value: property.value,
-            map,
+            map: map.map(|used| self.channel(key, used)).transpose()?,
         })
+    }
+
+    /// A number that must not be below 0 anywhere.
+    pub(crate) fn density(
+        &mut self,
+        key: &str,
+        property: &ScalarProperty,
+    ) -> Result<ScalarField, PlanError> {
+        let field = self.scalar(key, property)?;
+        if let (Some(texture), Some(used)) = (&field.map, &property.map) {
+            for (number, image) in texture.images() {
+                refuse_negative(key, used, number, image)?;
+            }
+        }
+        Ok(field)
     }
 
     pub(crate) fn color(
@@ -136,17 +155,18 @@ impl<'a> FieldMaker<'a> {
         let map = match &property.map {
             None => None,
             Some(used) => {
-                let image = self.image(key, used)?;
-                // 8-bit colour maps hold sRGB codes unless the recipe says otherwise.
-                let srgb = used
-                    .space
-                    .map_or(image.is_eight_bit(), |s| s == MapSpace::Srgb);
-                let image = if srgb {
-                    Arc::new(image.map_texels(linear_from_srgb))
-                } else {
-                    image
-                };
-                Some((image, used.wrap, used.blend))
+                let texture = self.texture(key, used)?.with_images(|image| {
+                    // 8-bit colour maps hold sRGB codes unless the recipe says otherwise.
+                    let srgb = used
+                        .space
+                        .map_or(image.is_eight_bit(), |s| s == MapSpace::Srgb);
+                    if srgb {
+                        Arc::new(image.map_texels(linear_from_srgb))
+                    } else {
+                        image.clone()
+                    }
+                });
+                Some((texture, used.blend))
             }
         };
         Ok(ColorField {
@@ -155,39 +175,66 @@ impl<'a> FieldMaker<'a> {
         })
     }
 
-    /// The image behind a map, refused where the surface has no UVs to read it at.
-    pub(crate) fn image(&self, key: &str, used: &MapUse) -> Result<Arc<ImageMap>, PlanError> {
+    /// The image or images behind a map, refused where the surface has no UVs to read
+    /// them at.
+    pub(crate) fn texture(&self, key: &str, used: &MapUse) -> Result<Texture, PlanError> {
         if !self.has_uvs {
             return Err(PlanError::NoUvs {
                 key: key.into(),
                 map: used.path.written.clone(),
             });
         }
-        self.images
-            .get(&used.path.resolved)
-            .cloned()
-            .ok_or_else(|| PlanError::MapNotLoaded {
-                key: key.into(),
-                map: path(used),
-            })
+        let path = &used.path;
+        let found = if path.is_tiled() {
+            let numbered = |(file, image): (&PathBuf, &Arc<ImageMap>)| {
+                Some((path.tile_number(file)?, image.clone()))
+            };
+            let tiles = Tiles::new(self.images.iter().filter_map(numbered));
+            let any = tiles.iter().next().is_some();
+            any.then_some(Texture::Tiles(tiles))
+        } else {
+            let image = self.images.get(&path.resolved).cloned();
+            image.map(|image| Texture::Image(image, used.wrap))
+        };
+        found.ok_or_else(|| PlanError::MapNotLoaded {
+            key: key.into(),
+            map: path.resolved.clone(),
+        })
     }
 
-    fn channel(&mut self, key: &str, used: &MapUse) -> Result<Arc<ImageMap>, PlanError> {
-        let image = self.image(key, used)?;
+    fn channel(&mut self, key: &str, used: &MapUse) -> Result<Texture, PlanError> {
+        let texture = self.texture(key, used)?;
         let channel = used.channel.unwrap_or(Channel::Red);
         let srgb = used.space == Some(MapSpace::Srgb);
         let at = (used.path.resolved.clone(), channel, srgb);
         if let Some(done) = self.decoded.get(&at) {
-            return Ok(done.clone());
+            return Ok(done.clone().with_wrap(used.wrap));
         }
-        let decoded = Arc::new(one_channel(&image, channel, srgb));
+        let decoded = texture.with_images(|image| Arc::new(one_channel(image, channel, srgb)));
         self.decoded.insert(at, decoded.clone());
         Ok(decoded)
     }
 }
 
-fn path(used: &MapUse) -> PathBuf {
-    Path::new(&used.path.resolved).to_owned()
+/// Refuses a decoded image of `used` with a texel below 0.
+fn refuse_negative(
+    key: &str,
+    used: &MapUse,
+    tile: Option<u32>,
+    image: &ImageMap,
+) -> Result<(), PlanError> {
+    let Some(texel) = image.texels().iter().position(|t| *t < 0.0) else {
+        return Ok(());
+    };
+    let path = &used.path;
+    Err(PlanError::NegativeDensity {
+        key: key.into(),
+        file: tile.map_or(path.resolved.clone(), |number| path.tile(number)),
+        x: (texel % image.width() as usize) as u32,
+        y: (texel / image.width() as usize) as u32,
+        channel: used.channel.unwrap_or(Channel::Red),
+        value: image.texels()[texel],
+    })
 }
 
 /// One channel of an image (Rec. 709 weights for luminance), decoded.

@@ -21,6 +21,7 @@ pub struct Plan {
     pub(crate) seed: u64,
     pub(crate) normals: bool,
     guide_count: usize,
+    notes: Vec<String>,
 }
 
 /// The properties that are read at each root.
@@ -43,6 +44,8 @@ impl Plan {
         let mut roots = RootPlan::on(rest, recipe, &mut maker)?;
         let fields = Fields::new(recipe, &mut maker)?;
         let rest = &roots.rest;
+        let mut notes = roots.notes().to_vec();
+        notes.extend(maker.missing_tiles(recipe, rest, |key| !RootPlan::needs(key)));
         let all = match (roots.sampler(), recipe.guides.source()) {
             (_, Some(GuideSource::Curves(_))) => {
                 guide::bind(rest, &groom.guides, tolerance(recipe, rest))?
@@ -65,6 +68,7 @@ impl Plan {
             seed: recipe.hair.seed,
             normals: recipe.output.normals,
             guide_count: all.len(),
+            notes,
         };
         plan.share_out(&all)?;
         Ok(plan)
@@ -120,6 +124,11 @@ impl Plan {
     /// The surface at rest.
     pub fn rest(&self) -> &Mesh {
         self.roots.rest()
+    }
+
+    /// Things worth telling that are no errors, in plain words: those of the roots too.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// Vertices of the longest hairs.

@@ -10,8 +10,7 @@ use crate::maps::{FieldMaker, ScalarField};
 use crate::recipe::{Pattern, Recipe, Segments};
 use pelage_curves::Vec2;
 use pelage_surface::{
-    BlueNoise, Density, ImageMap, Mesh, PolygonMesh, RootFrame, RootSampler, Spread, SurfacePoint,
-    VoxelRoots, Wrap,
+    BlueNoise, Mesh, PolygonMesh, RootFrame, RootSampler, Spread, SurfacePoint, VoxelRoots,
 };
 use std::ops::Range;
 
@@ -44,17 +43,30 @@ impl RootPlan {
         Self::on(rest, &groom.recipe, &mut maker)
     }
 
+    /// Whether the map of the property `key` says something of roots.
+    pub fn needs(key: &str) -> bool {
+        key.starts_with("roots.") || key.starts_with("groups.")
+    }
+
     pub(crate) fn on(
         rest: Mesh,
         recipe: &Recipe,
         maker: &mut FieldMaker,
     ) -> Result<Self, PlanError> {
-        let density = maker.scalar("roots.density", &recipe.roots.density)?;
+        let density = maker.density("roots.density", &recipe.roots.density)?;
         let displacement = maker.scalar("roots.displacement", &recipe.roots.displacement)?;
-        let sampler = sampler(&density, &rest, recipe)?;
+        let spread = match recipe.roots.pattern {
+            Pattern::Random => Spread::Random,
+            Pattern::Stratified | Pattern::BlueNoise => Spread::Stratified,
+        };
+        let sampler = density
+            .sampler(&rest, recipe.hair.seed)
+            .map(|sampler| sampler.with_spread(spread));
         let count = sampler.as_ref().map_or(0, |_| recipe.hair.count);
+        let mut notes = maker.missing_tiles(recipe, &rest, Self::needs);
+        notes.extend(losses(&rest, sampler.is_some()));
         Ok(Self {
-            notes: notes(&rest, sampler.is_some()),
+            notes,
             groups: groups(recipe, maker)?,
             blue_noise: blue_noise(recipe, &rest, sampler.as_ref())?,
             displacement: Some(displacement).filter(|field| !field.is_zero()),
@@ -152,39 +164,6 @@ pub(crate) fn rest(mut polygons: PolygonMesh, keep_file_normals: bool) -> Result
     Ok(rest)
 }
 
-/// Draws roots on `rest` by `density`; `None` where no hair can grow.
-fn sampler(
-    density: &ScalarField,
-    rest: &Mesh,
-    recipe: &Recipe,
-) -> Result<Option<RootSampler>, PlanError> {
-    let (value, map) = density.parts();
-    if let Some((map, _)) = map {
-        refuse_negative(map)?;
-    }
-    let density = Density {
-        value,
-        map: map.map(|(map, wrap)| (map, 0, wrap)),
-    };
-    let spread = match recipe.roots.pattern {
-        Pattern::Random => Spread::Random,
-        Pattern::Stratified | Pattern::BlueNoise => Spread::Stratified,
-    };
-    let sampler = RootSampler::new(rest, &density, recipe.hair.seed);
-    Ok(sampler.map(|sampler| sampler.with_spread(spread)))
-}
-
-fn refuse_negative(map: &ImageMap) -> Result<(), PlanError> {
-    match map.texels().iter().position(|t| *t < 0.0) {
-        None => Ok(()),
-        Some(texel) => Err(PlanError::NegativeDensity {
-            x: (texel % map.width() as usize) as u32,
-            y: (texel / map.width() as usize) as u32,
-            value: map.texels()[texel],
-        }),
-    }
-}
-
 fn blue_noise(
     recipe: &Recipe,
     rest: &Mesh,
@@ -201,7 +180,8 @@ fn blue_noise(
     Ok(Some(BlueNoise::new(rest, sampler, found)))
 }
 
-fn notes(rest: &Mesh, grows: bool) -> Vec<String> {
+/// What grows no hair and is no error.
+fn losses(rest: &Mesh, grows: bool) -> Vec<String> {
     let mut notes = Vec::new();
     let degenerate = rest.degenerate_triangles();
     if degenerate > 0 {
@@ -221,13 +201,13 @@ fn groups(recipe: &Recipe, maker: &FieldMaker) -> Result<Groups, PlanError> {
             _ => 1,
         }));
     };
-    let map = maker.image("groups.map", used)?;
+    let map = maker.texture("groups.map", used)?;
     match &recipe.groups.segments {
         Some(Segments::ByColor(listed)) => {
             let listed: Vec<_> = listed.iter().map(|(&color, &n)| (color, n)).collect();
-            Ok(Groups::listed(&map, Wrap::Repeat, &listed))
+            Ok(Groups::listed(&map, &listed))
         }
-        Some(Segments::All(n)) => Groups::found(&map, Wrap::Repeat, *n),
-        None => Groups::found(&map, Wrap::Repeat, 1),
+        Some(Segments::All(n)) => Groups::found(&map, *n),
+        None => Groups::found(&map, 1),
     }
 }

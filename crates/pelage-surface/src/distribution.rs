@@ -251,8 +251,9 @@ fn grid(starts: &[u64], shift: u32) -> Vec<u32> {
         let first = (run * RUN) as u64;
         let last = first + cells.len() as u64 - 1;
         let holds = |cell: u64| starts.partition_point(|&start| start <= cell << shift);
-        for element in holds(first) - 1..holds(last) {
-            let cell = match starts[element] {
+        let elements = holds(first) - 1..holds(last);
+        for (start, element) in starts[elements.clone()].iter().zip(elements) {
+            let cell = match start {
                 0 => 0,
                 start => ((start - 1) >> shift) + 1,
             };

@@ -8,6 +8,9 @@ pub enum Wrap {
     Repeat,
     /// The border texels go on.
     Clamp,
+    /// The image and its mirror image take turns: upright in 0..1 and every second
+    /// tile from there, reflected in u, v or both between them.
+    Mirror,
 }
 
 impl Wrap {
@@ -45,7 +48,8 @@ pub enum MapError {
     },
     /// A texel that is NaN or infinite.
     #[error(
-        "texel (column {x}, row {y} from the top), channel {channel}, is {value}; maps must be finite"
+        "texel (column {x}, row {y} from the top, channel {channel}, counted from 0) is {value}; \
+        maps must be finite: paint over it"
     )]
     NotFinite {
         /// Column.
@@ -149,7 +153,7 @@ impl ImageMap {
     pub fn sample(&self, u: f32, v: f32, channel: u32, wrap: Wrap) -> f32 {
         let channel = channel.min(self.channels - 1) as usize;
         self.around(u, v, wrap)
-            .blend(|x, y| self.texel(x, y)[channel])
+            .texels(|x, y| self.texel(x, y)[channel])
     }
 
     /// Bilinear colour at `(u, v)`: the first three channels, or the first alone as
@@ -158,7 +162,7 @@ impl ImageMap {
         let around = self.around(u, v, wrap);
         std::array::from_fn(|k| {
             let channel = if self.channels >= 3 { k } else { 0 };
-            around.blend(|x, y| self.texel(x, y)[channel])
+            around.texels(|x, y| self.texel(x, y)[channel])
         })
     }
 
@@ -177,7 +181,7 @@ impl ImageMap {
     }
 
     #[inline(always)]
-    fn around(&self, u: f32, v: f32, wrap: Wrap) -> Around {
+    pub(crate) fn around(&self, u: f32, v: f32, wrap: Wrap) -> Around {
         // f64: at u = 10 an f32 holds only a sixteenth of a texel of a large map.
         let x = u as f64 * self.width as f64 - 0.5;
         let y = (1.0 - v as f64) * self.height as f64 - 0.5;
@@ -192,22 +196,28 @@ impl ImageMap {
 }
 
 /// The four texels around a place and how far it lies between them.
-struct Around {
-    columns: [u32; 2],
-    rows: [u32; 2],
+pub(crate) struct Around {
+    pub columns: [u32; 2],
+    pub rows: [u32; 2],
     across: f32,
     down: f32,
 }
 
 impl Around {
-    /// Written as differences so that equal texels give that very value.
     #[inline(always)]
-    fn blend(&self, texel: impl Fn(u32, u32) -> f32) -> f32 {
-        let row = |y| {
-            let (a, b) = (texel(self.columns[0], y), texel(self.columns[1], y));
+    fn texels(&self, texel: impl Fn(u32, u32) -> f32) -> f32 {
+        self.blend(|i, j| texel(self.columns[i], self.rows[j]))
+    }
+
+    /// Mixes the four values `at(i, j)` of column `i` and row `j` of these. Written as
+    /// differences so that equal values give that very value.
+    #[inline(always)]
+    pub(crate) fn blend(&self, at: impl Fn(usize, usize) -> f32) -> f32 {
+        let row = |j| {
+            let (a, b) = (at(0, j), at(1, j));
             a + (b - a) * self.across
         };
-        let (a, b) = (row(self.rows[0]), row(self.rows[1]));
+        let (a, b) = (row(0), row(1));
         a + (b - a) * self.down
     }
 }
@@ -233,6 +243,11 @@ fn wrapped(x: f64, size: u32, wrap: Wrap) -> u32 {
     match wrap {
         Wrap::Repeat => (x.rem_euclid(size as f64) as u32).min(size - 1),
         Wrap::Clamp => (x.max(0.0) as u32).min(size - 1),
+        Wrap::Mirror => {
+            let there_and_back = 2.0 * size as f64;
+            let x = x.rem_euclid(there_and_back);
+            (x.min(there_and_back - 1.0 - x) as u32).min(size - 1)
+        }
     }
 }
 
@@ -287,11 +302,25 @@ mod tests {
     }
 
     #[test]
+    fn mirroring_turns_every_second_tile_around() {
+        let at = |u, v| four().sample(u, v, 0, Wrap::Mirror);
+        for (u, v) in [(0.3, 0.6), (0.05, 0.9), (0.0, 1.0)] {
+            for (back_u, back_v) in [(-u, v), (2.0 - u, -v), (u + 2.0, 2.0 - v), (u, v - 4.0)] {
+                assert!((at(back_u, back_v) - at(u, v)).abs() < 1e-6);
+            }
+        }
+        // No seam: on the border, both sides are the border's texel.
+        assert_eq!(at(1.0, 0.75), 1.0);
+        assert_eq!(at(0.25, 0.0), 2.0);
+    }
+
+    #[test]
     fn coordinates_that_are_no_numbers_do_not_panic() {
         for bad in [f32::NAN, f32::INFINITY, -1e30] {
-            four().sample(bad, bad, 0, Wrap::Repeat);
-            four().sample(bad, bad, 0, Wrap::Clamp);
-            four().nearest(bad, bad, Wrap::Repeat);
+            for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
+                four().sample(bad, bad, 0, wrap);
+                four().nearest(bad, bad, wrap);
+            }
         }
     }
 
@@ -300,7 +329,8 @@ mod tests {
         let error = ImageMap::new(2, 1, 3, vec![0.0, 0.0, 0.0, 0.0, f32::NAN, 0.0], false);
         assert_eq!(
             error.unwrap_err().to_string(),
-            "texel (column 1, row 0 from the top), channel 1, is NaN; maps must be finite"
+            "texel (column 1, row 0 from the top, channel 1, counted from 0) is NaN; \
+            maps must be finite: paint over it"
         );
     }
 

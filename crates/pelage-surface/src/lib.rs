@@ -21,6 +21,7 @@ mod sequence;
 mod sheet;
 mod subdivide;
 mod tangents;
+mod tiles;
 mod triangulate;
 mod voxels;
 
@@ -35,4 +36,5 @@ pub use pdf::RootPdf;
 pub use sampler::RootSampler;
 pub use sequence::{RootSequence, Spread, hash, radical_inverse};
 pub use subdivide::Density;
+pub use tiles::{TiledDensity, Tiles, tile_number};
 pub use voxels::VoxelRoots;

@@ -45,6 +45,17 @@ pub enum MeshError {
         /// Entry of the array.
         index: usize,
     },
+    /// A vertex so far from the origin that lengths overflow.
+    #[error(
+        "vertex {index} is at {position}; coordinates go up to {limit:e} here: scale the mesh down",
+        limit = Mesh::FARTHEST
+    )]
+    TooFar {
+        /// Entry of the positions.
+        index: usize,
+        /// Where it is, as text.
+        position: String,
+    },
     /// An array does not match the faces.
     #[error("{array} has {found} entries, not {expected}")]
     WrongCount {
@@ -99,6 +110,10 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// The largest coordinate of a vertex, in the unit of the mesh: squares of lengths
+    /// still fit an f32.
+    pub const FARTHEST: f32 = 1e18;
+
     /// Checks `polygons`, triangulates them (concave ones too), computes normals
     /// where the file has none (angle-weighted over the faces that share a vertex)
     /// and tangents (along +u; without UVs along the first edge of each triangle).
@@ -320,6 +335,14 @@ fn check(mesh: &PolygonMesh) -> Result<(), MeshError> {
         corner += size as usize;
     }
     finite("vertex", mesh.positions.iter().map(|p| &p[..]))?;
+    let far = |p: &[f32; 3]| p.iter().any(|c| c.abs() > Mesh::FARTHEST);
+    if let Some(index) = mesh.positions.iter().position(far) {
+        let [x, y, z] = mesh.positions[index];
+        return Err(MeshError::TooFar {
+            index,
+            position: format!("({x:?}, {y:?}, {z:?})"),
+        });
+    }
     finite("texture coordinate", mesh.corner_uvs.iter().map(|p| &p[..]))?;
     finite("normal", mesh.corner_normals.iter().map(|p| &p[..]))
 }
@@ -405,6 +428,13 @@ mod tests {
             Mesh::new(mesh),
             Err(MeshError::NotFinite { index: 3, .. })
         ));
+        let mut mesh = square();
+        mesh.positions[2] = [0.0, -1e30, 0.5];
+        assert_eq!(
+            Mesh::new(mesh).unwrap_err().to_string(),
+            "vertex 2 is at (0.0, -1e30, 0.5); coordinates go up to 1e18 here: \
+            scale the mesh down"
+        );
         let mut mesh = square();
         mesh.face_sizes = vec![2, 2];
         assert_eq!(Mesh::new(mesh).unwrap_err(), MeshError::Empty);

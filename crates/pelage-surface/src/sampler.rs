@@ -9,8 +9,8 @@
 use crate::distribution::Distribution;
 use crate::hilbert::hilbert_index;
 use crate::pieces::Pieces;
-use crate::subdivide::{Density, pieces};
-use crate::{Mesh, RootSequence, Spread, SurfacePoint};
+use crate::subdivide::{Density, DensityField, pieces};
+use crate::{Mesh, RootSequence, Spread, SurfacePoint, TiledDensity};
 use rayon::prelude::*;
 
 /// Draws roots on a mesh in proportion to a density.
@@ -26,6 +26,15 @@ impl RootSampler {
     /// A sampler of `mesh` at rest by `density`, for the hairs of `seed`; `None` where
     /// no piece of the surface has any density (no hair can grow).
     pub fn new(mesh: &Mesh, density: &Density, seed: u64) -> Option<Self> {
+        Self::by(mesh, density, seed)
+    }
+
+    /// As [`new`](Self::new), by a density that is painted on UDIM tiles.
+    pub fn tiled(mesh: &Mesh, density: &TiledDensity, seed: u64) -> Option<Self> {
+        Self::by(mesh, density, seed)
+    }
+
+    fn by(mesh: &Mesh, density: &impl DensityField, seed: u64) -> Option<Self> {
         let found = pieces(mesh, &order_along_curve(mesh), density);
         let weights: Vec<f64> = found.iter().map(|p| p.weight).collect();
         Some(Self {

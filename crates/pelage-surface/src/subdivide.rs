@@ -19,6 +19,37 @@ pub struct Density<'a> {
     pub map: Option<(&'a ImageMap, u32, Wrap)>,
 }
 
+/// What cutting asks of a density.
+pub(crate) trait DensityField: Sync {
+    /// The factor everywhere, at least 0.
+    fn value(&self) -> f32;
+
+    /// Columns and rows that the finest image in a triangle with corners at `uv` has in
+    /// a unit of texture; `None` where the density is the same all over the triangle.
+    fn texels(&self, uv: [Vec2; 3]) -> Option<[u32; 2]>;
+
+    /// What the factor is multiplied by at `uv`.
+    fn at(&self, uv: Vec2) -> f32;
+}
+
+impl DensityField for Density<'_> {
+    fn value(&self) -> f32 {
+        self.value
+    }
+
+    #[inline(always)]
+    fn texels(&self, _: [Vec2; 3]) -> Option<[u32; 2]> {
+        self.map.map(|(map, ..)| [map.width(), map.height()])
+    }
+
+    #[inline(always)]
+    fn at(&self, uv: Vec2) -> f32 {
+        let sample =
+            |(map, channel, wrap): (&ImageMap, _, _)| map.sample(uv.x, uv.y, channel, wrap);
+        self.map.map_or(1.0, sample)
+    }
+}
+
 /// Depth at which cutting stops whatever the map: 4^12 pieces a triangle, the
 /// texels of a 4096² map that one triangle fills.
 pub(crate) const MAX_DEPTH: u32 = 12;
@@ -121,7 +152,7 @@ pub(crate) struct Piece {
 }
 
 /// The pieces of all triangles in the order given, without those of density zero.
-pub(crate) fn pieces(mesh: &Mesh, order: &[u32], density: &Density) -> Vec<Piece> {
+pub(crate) fn pieces(mesh: &Mesh, order: &[u32], density: &impl DensityField) -> Vec<Piece> {
     let leaves = Leaves::new();
     let level = Level::new();
     order
@@ -167,15 +198,15 @@ impl Leaves {
 /// Density of a part whose parts have different ones.
 const MIXED: f32 = f32::NAN;
 
-struct Cutter<'a> {
+struct Cutter<'a, D> {
     mesh: &'a Mesh,
-    density: &'a Density<'a>,
+    density: &'a D,
     leaves: &'a Leaves,
     /// Densities of the parts of each depth.
     levels: [Vec<f32>; MAX_DEPTH as usize + 1],
 }
 
-impl Cutter<'_> {
+impl<D: DensityField> Cutter<'_, D> {
     #[inline(always)]
     fn cut(&mut self, triangle: u32, pieces: &mut Vec<Piece>) {
         let area = self.mesh.area(triangle as usize);
@@ -189,7 +220,7 @@ impl Cutter<'_> {
             .rev()
             .find(|&d| !self.merge(d))
             .map_or(0, |d| d + 1);
-        let weight = area * self.density.value as f64;
+        let weight = area * self.density.value() as f64;
         self.emit(0, 0, uncut, &mut |d, i, density| {
             pieces.push(Piece {
                 triangle,
@@ -203,14 +234,12 @@ impl Cutter<'_> {
     /// returns their depth.
     #[inline(always)]
     fn sample(&mut self, triangle: u32) -> u32 {
-        let Some((map, channel, wrap)) = self.density.map else {
-            self.levels[0].clear();
-            self.levels[0].push(1.0);
-            return 0;
-        };
         let all = self.mesh.uvs().get(triangle as usize);
         let uv = all.copied().unwrap_or([Vec2::ZERO; 3]);
-        let depth = depth_for(uv, map);
+        let depth = self
+            .density
+            .texels(uv)
+            .map_or(0, |size| depth_for(uv, size));
         let leaves = self.leaves.of_depth(depth.min(TABLE_DEPTH));
         let level = &mut self.levels[depth as usize];
         level.clear();
@@ -224,7 +253,7 @@ impl Cutter<'_> {
                 });
                 level.extend(leaves.iter().map(|&[u, v]| {
                     let at = a * (1.0 - u - v) + b * u + c * v;
-                    map.sample(at.x, at.y, channel, wrap)
+                    self.density.at(at)
                 }));
             },
         );
@@ -283,8 +312,8 @@ fn for_each_part(part: Part, depth: u32, visit: &mut impl FnMut(Part)) {
 const LONGEST: f32 = 4.0;
 
 /// Least depth at which a part covers at most one texel (document 004, eq. 2.3).
-fn depth_for(uv: [Vec2; 3], map: &ImageMap) -> u32 {
-    let texel = |p: Vec2| p * Vec2::new(map.width() as f32, map.height() as f32);
+fn depth_for(uv: [Vec2; 3], [width, height]: [u32; 2]) -> u32 {
+    let texel = |p: Vec2| p * Vec2::new(width as f32, height as f32);
     let [a, b, c] = uv.map(texel);
     let area = (b - a).perp_dot(c - a).abs() / 2.0;
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());

@@ -17,6 +17,7 @@
 
 mod load;
 mod poses;
+mod udim;
 
 pub use load::{Loaded, LoadedRoots, load, load_roots, load_with};
 pub use poses::{PoseFiles, PoseSource};

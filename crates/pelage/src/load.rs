@@ -1,6 +1,7 @@
 //! From the path of a recipe to a plan: every file it names is read here.
 
 use crate::poses::{PoseFiles, PoseSource};
+use crate::udim;
 use pelage_curves::Vec3;
 use pelage_groom::recipe::{GuideSource, Recipe, RecipeError, Up};
 use pelage_groom::{Groom, Images, Plan, Request, RootPlan};
@@ -8,6 +9,7 @@ use pelage_io::{
     MeshFile, ReadError, read_curves, read_image, read_mesh, strands_through_vertices,
 };
 use pelage_strands::{StreamInfo, UpAxis};
+use std::collections::hash_map::Entry;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -80,8 +82,7 @@ pub struct LoadedRoots {
 /// sections `roots` and `groups`. Neither guides nor other maps need be there.
 pub fn load_roots(recipe: Recipe) -> Result<LoadedRoots, RecipeError> {
     let surface = Surface::read(&recipe)?;
-    let needed = |key: &str| key.starts_with("roots.") || key.starts_with("groups.");
-    let images = read_images(&recipe, needed)?;
+    let images = read_images(&recipe, RootPlan::needs)?;
     let (groom, poses, info) = surface.groom(&recipe, images, Vec::new());
     let plan = RootPlan::new(groom).map_err(|e| recipe.error_at(e.key(), e.to_string()))?;
     Ok(LoadedRoots {
@@ -168,10 +169,12 @@ fn read_guides(path: &Path) -> Result<Vec<Vec<Vec3>>, ReadError> {
 fn read_images(recipe: &Recipe, needed: impl Fn(&str) -> bool) -> Result<Images, RecipeError> {
     let mut images = Images::new();
     for (key, used) in recipe.maps().into_iter().filter(|(key, _)| needed(key)) {
-        let path = &used.path.resolved;
-        if !images.contains_key(path) {
-            let image = read_image(path).map_err(|e| recipe.error_at(&key, e.to_string()))?;
-            images.insert(path.clone(), Arc::new(image));
+        let at_key = |error: ReadError| recipe.error_at(&key, error.to_string());
+        for file in udim::files(&used.path).map_err(at_key)? {
+            if let Entry::Vacant(place) = images.entry(file) {
+                let image = read_image(place.key()).map_err(at_key)?;
+                place.insert(Arc::new(image));
+            }
         }
     }
     Ok(images)

@@ -50,13 +50,13 @@ words! {
 /// A map and how it is read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapUse {
-    /// The image.
+    /// The image, or the images of a UDIM set ([`FilePath::is_tiled`]).
     pub path: FilePath,
     /// The channel read. `None` reads the whole colour (the default of colours
     /// and directions); numbers always have one, red unless the recipe says
     /// otherwise. A colour with a channel is grey of that channel.
     pub channel: Option<Channel>,
-    /// What lies outside 0..1 of the UVs; repeats by default.
+    /// What lies outside 0..1 of the UVs; repeats by default. A UDIM set has no wrap.
     pub wrap: Wrap,
     /// How codes are read. `None` leaves it to the image: 8-bit colour maps are
     /// sRGB, everything else is linear.
@@ -109,6 +109,11 @@ impl MapUse {
             }
         }
         using.path.read(path?, &map, Rule::ANY, reader);
+        if let Some(wrap) = table.get("wrap").filter(|_| using.path.is_tiled()) {
+            let message = "says nothing beside a map with <UDIM>, whose tiles \
+                are where their numbers say: leave it out";
+            reader.contradiction(&join(key, "wrap"), wrap.span(), message.to_owned());
+        }
         Some(using)
     }
 
@@ -137,28 +142,35 @@ impl MapUse {
     }
 }
 
+/// What each wrap is called, and what it does.
+const WRAPS: [(Wrap, &str, &str); 3] = [
+    (
+        Wrap::Repeat,
+        "repeat",
+        "the image repeats outside 0..1 of the UVs",
+    ),
+    (Wrap::Clamp, "clamp", "the border texels go on"),
+    (
+        Wrap::Mirror,
+        "mirror",
+        "the image and its mirror image take turns, upright in 0..1",
+    ),
+];
+
 fn word_of(wrap: Wrap) -> &'static str {
-    match wrap {
-        Wrap::Repeat => "repeat",
-        Wrap::Clamp => "clamp",
-    }
+    let named = WRAPS.iter().find(|(named, ..)| *named == wrap);
+    named.map_or("", |(_, word, _)| word)
 }
 
 impl Entry for Wrap {
     fn read(&mut self, value: &Spanned<DeValue<'_>>, key: &str, _: Rule, reader: &mut Reader<'_>) {
-        if let Some(i) = word::position(value, key, &["repeat", "clamp"], reader) {
-            *self = [Wrap::Repeat, Wrap::Clamp][i];
+        if let Some(i) = word::position(value, key, &WRAPS.map(|(_, word, _)| word), reader) {
+            *self = WRAPS[i].0;
         }
     }
 
     fn schema(&self, _: Rule, _: &mut SchemaGenerator) -> Schema {
-        word::schema(
-            "repeat",
-            &[
-                ("repeat", "the image repeats outside 0..1"),
-                ("clamp", "the border texels go on"),
-            ],
-        )
+        word::schema(word_of(*self), &WRAPS.map(|(_, word, does)| (word, does)))
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {

@@ -220,7 +220,8 @@ fn table_schema<V: PropertyValue>(rule: Rule, generator: &mut SchemaGenerator) -
     let mut keys = json!({
         "value": V::plain_schema(rule),
         "map": shared(generator, "image", "An image file, PNG, TIFF, EXR or HDR, relative to \
-            the folder of the recipe.", json!({ "type": "string", "minLength": 1 })),
+            the folder of the recipe. `<UDIM>` in its name stands for the numbers of a set of \
+            tiles, 1001 to 9999.", json!({ "type": "string", "minLength": 1 })),
     });
     for name in &V::KEYS[2..] {
         let of = match *name {

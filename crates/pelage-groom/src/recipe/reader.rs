@@ -236,7 +236,11 @@ impl<'s> Reader<'s> {
 
     /// Reports that `key`, at `span`, and `other` cannot both be given.
     pub(crate) fn exclusive(&mut self, key: &str, span: Range<usize>, other: &str) {
-        let message = format!("excludes {other}: give one of them");
+        self.contradiction(key, span, format!("excludes {other}: give one of them"));
+    }
+
+    /// Reports that `key`, at `span`, cannot be given beside what else is.
+    pub(crate) fn contradiction(&mut self, key: &str, span: Range<usize>, message: String) {
         let problem = self.problem(ProblemKind::Exclusive, key, span, message);
         self.push(problem);
     }

@@ -108,6 +108,22 @@ fn a_map_says_how_it_is_read() {
 }
 
 #[test]
+fn every_wrap_is_read_and_written() {
+    for (word, wrap) in [
+        ("repeat", Wrap::Repeat),
+        ("clamp", Wrap::Clamp),
+        ("mirror", Wrap::Mirror),
+    ] {
+        let recipe = parse(&format!(
+            "surface.mesh = 'a.obj'\nguides.curves = 'g.usda'\n\
+             width.root = {{ map = 'w.png', wrap = '{word}' }}\n"
+        ));
+        assert_eq!(recipe.width.root.map.as_ref().unwrap().wrap, wrap);
+        assert_eq!(parse(&recipe.to_toml()), recipe);
+    }
+}
+
+#[test]
 fn a_map_without_a_value_is_taken_as_it_is() {
     let text = "surface.mesh = 'a.obj'\nguides.curves = 'g.usda'\n\
                 width.root = { map = 'w.png' }\n\

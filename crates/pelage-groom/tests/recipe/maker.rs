@@ -4,8 +4,9 @@
 use serde_json::{Map, Value, json};
 
 /// File names that need quotes, escapes and more than ASCII.
-const FILES: [&str; 5] = [
+const FILES: [&str; 6] = [
     "map.png",
+    "map.<UDIM>.png",
     "a b.exr",
     "ä/日本.tif",
     "quo\"te'.png",
@@ -72,7 +73,7 @@ impl<'s> Maker<'s> {
             "integer" => self.whole(schema),
             "number" => self.number(schema),
             "string" if schema["pattern"].is_string() => json!(self.color()),
-            "string" => json!(FILES[self.below(5) as usize]),
+            "string" => json!(FILES[self.below(FILES.len() as u64) as usize]),
             "array" => self.list(schema),
             _ => Value::Object(self.table(schema)),
         }
@@ -147,6 +148,9 @@ impl<'s> Maker<'s> {
     fn agree(&mut self, table: &mut Map<String, Value>, keys: &Map<String, Value>) {
         if !table.contains_key("map") {
             table.retain(|name, _| name == "value" || name == "ramp");
+        }
+        if table.get("map").is_some_and(|map| map == FILES[1]) {
+            table.remove("wrap");
         }
         if table.contains_key("ramp") {
             table.remove("value");

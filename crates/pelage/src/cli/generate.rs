@@ -93,12 +93,7 @@ impl Job {
     pub fn load(recipe: Recipe, threads: usize, say: &Say) -> Result<Self> {
         let started = Instant::now();
         let loaded = load_with(recipe)?;
-        loaded
-            .plan
-            .roots()
-            .notes()
-            .iter()
-            .for_each(|note| say.note(note));
+        loaded.plan.notes().iter().for_each(|note| say.note(note));
         let request = loaded.request(0..loaded.plan.count(), threads_of(threads));
         Ok(Self {
             loaded,

@@ -98,7 +98,8 @@ pub fn start(arguments: &[&str]) -> Child {
     command.spawn().unwrap()
 }
 
-fn run(arguments: &[&str]) -> Output {
+/// Runs the command, whatever comes of it.
+pub fn run(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_pelage"))
         .args(arguments)
         .output()

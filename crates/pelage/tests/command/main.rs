@@ -5,6 +5,8 @@
 
 mod bench;
 mod groom;
+mod maps;
+mod meshes;
 mod sample;
 
 use groom::{Folder, fails, pelage};

@@ -1,0 +1,68 @@
+//! A map as a property reads it.
+
+use pelage_curves::Vec2;
+use pelage_surface::{ImageMap, Tiles, Wrap};
+use std::sync::Arc;
+
+/// One image with what lies around it, or the tiles of a UDIM set.
+#[derive(Clone, Debug)]
+pub enum Texture {
+    /// An image, and what lies outside 0..1.
+    Image(Arc<ImageMap>, Wrap),
+    /// An image for each unit square.
+    Tiles(Tiles<Arc<ImageMap>>),
+}
+
+impl Texture {
+    /// Bilinear value of `channel` at `uv`; `None` where a set has no tile.
+    #[inline(always)]
+    pub fn sample(&self, uv: Vec2, channel: u32) -> Option<f32> {
+        match self {
+            Self::Image(image, wrap) => Some(image.sample(uv.x, uv.y, channel, *wrap)),
+            Self::Tiles(tiles) => tiles.sample(uv.x, uv.y, channel),
+        }
+    }
+
+    /// Bilinear colour at `uv`; `None` where a set has no tile.
+    #[inline(always)]
+    pub fn sample_rgb(&self, uv: Vec2) -> Option<[f32; 3]> {
+        match self {
+            Self::Image(image, wrap) => Some(image.sample_rgb(uv.x, uv.y, *wrap)),
+            Self::Tiles(tiles) => tiles.sample_rgb(uv.x, uv.y),
+        }
+    }
+
+    /// Width and height of a texel at `uv`, in texture space; `None` where a set has no
+    /// tile.
+    pub fn texel(&self, uv: Vec2) -> Option<Vec2> {
+        let image: &ImageMap = match self {
+            Self::Image(image, _) => image,
+            Self::Tiles(tiles) => tiles.at(uv.x, uv.y)?.0,
+        };
+        Some(Vec2::new(image.width() as f32, image.height() as f32).recip())
+    }
+
+    /// Its images, each with the number of its tile if it is one.
+    pub fn images(&self) -> Vec<(Option<u32>, &ImageMap)> {
+        match self {
+            Self::Image(image, _) => vec![(None, image)],
+            Self::Tiles(tiles) => tiles.iter().map(|(n, image)| (Some(n), &**image)).collect(),
+        }
+    }
+
+    /// The same with other images.
+    pub(crate) fn with_images(&self, f: impl Fn(&Arc<ImageMap>) -> Arc<ImageMap>) -> Self {
+        match self {
+            Self::Image(image, wrap) => Self::Image(f(image), *wrap),
+            Self::Tiles(tiles) => Self::Tiles(tiles.map(f)),
+        }
+    }
+
+    /// The same with another wrap, if it has one.
+    pub(crate) fn with_wrap(self, wrap: Wrap) -> Self {
+        match self {
+            Self::Image(image, _) => Self::Image(image, wrap),
+            Self::Tiles(tiles) => Self::Tiles(tiles),
+        }
+    }
+}
