@@ -54,17 +54,17 @@ impl Distribution {
     /// The same with a grid of 2^`bits` cells (1 to 32 bits), for those who know better.
     pub fn with_cells(weights: &[f64], bits: u32) -> Option<Self> {
         let runs: Vec<&[f64]> = weights.chunks(RUN).collect();
-        Self::of_runs(&runs, bits)
+        Self::of_runs_with_cells(&runs, bits)
     }
 
     /// As [`new`](Self::new), of weights that come in `runs`, which are summed in parallel:
     /// how they are cut shows in the last bits of the sums.
-    pub(crate) fn new_of_runs(runs: &[&[f64]]) -> Option<Self> {
+    pub(crate) fn of_runs(runs: &[&[f64]]) -> Option<Self> {
         let len = runs.iter().map(|run| run.len()).sum();
-        Self::of_runs(runs, cell_bits(len))
+        Self::of_runs_with_cells(runs, cell_bits(len))
     }
 
-    fn of_runs(runs: &[&[f64]], bits: u32) -> Option<Self> {
+    fn of_runs_with_cells(runs: &[&[f64]], bits: u32) -> Option<Self> {
         let sums: Option<Vec<f64>> = runs.par_iter().map(|run| sound_sum(run)).collect();
         let mut total = 0.0;
         let before: Vec<f64> = sums?

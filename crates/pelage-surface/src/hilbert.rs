@@ -12,30 +12,20 @@ pub(crate) fn hilbert_index(point: Vec3, low: Vec3, side: f32) -> u64 {
     let cell = |x: f32| ((x / side * cells) as u32).min((1 << BITS) - 1);
     let offset = point - low;
     let mut axes = [cell(offset.x), cell(offset.y), cell(offset.z)];
-    let mut q = 1 << (BITS - 1);
-    while q > 1 {
-        let p = q - 1;
+    // Masks instead of branches, half of which would be guessed wrong.
+    let mask = |axis: u32, bit: u32| (axis >> bit & 1).wrapping_neg();
+    for bit in (1..BITS).rev() {
+        let below = (1 << bit) - 1;
         for i in 0..3 {
-            if axes[i] & q != 0 {
-                axes[0] ^= p;
-            } else {
-                let t = (axes[0] ^ axes[i]) & p;
-                axes[0] ^= t;
-                axes[i] ^= t;
-            }
+            let set = mask(axes[i], bit);
+            let exchanged = (axes[0] ^ axes[i]) & below & !set;
+            axes[0] ^= below & set | exchanged;
+            axes[i] ^= exchanged;
         }
-        q >>= 1;
     }
     axes[1] ^= axes[0];
     axes[2] ^= axes[1];
-    let mut t = 0;
-    q = 1 << (BITS - 1);
-    while q > 1 {
-        if axes[2] & q != 0 {
-            t ^= q - 1;
-        }
-        q >>= 1;
-    }
+    let t = (1..BITS).fold(0, |t, bit| t ^ (mask(axes[2], bit) & ((1 << bit) - 1)));
     let [x, y, z] = axes.map(|a| a ^ t);
     (0..BITS).rev().fold(0, |index, bit| {
         let digit = (x >> bit & 1) << 2 | (y >> bit & 1) << 1 | (z >> bit & 1);

@@ -225,7 +225,7 @@ impl Around {
 /// The largest integer that is not above `x`: `f64::floor`, which is a call where the
 /// processor is only asked for its oldest instructions.
 #[inline(always)]
-fn floor(x: f64) -> f64 {
+pub(crate) fn floor(x: f64) -> f64 {
     const NO_FRACTIONS: f64 = (1u64 << 52) as f64;
     if x.abs() >= NO_FRACTIONS {
         return x;
@@ -236,7 +236,7 @@ fn floor(x: f64) -> f64 {
 
 /// Column or row `x` brought into `0..size`. Anything that is no number gives 0.
 #[inline(always)]
-fn wrapped(x: f64, size: u32, wrap: Wrap) -> u32 {
+pub(crate) fn wrapped(x: f64, size: u32, wrap: Wrap) -> u32 {
     if (0.0..size as f64).contains(&x) {
         return x as u32;
     }

@@ -24,6 +24,7 @@ mod tangents;
 mod tiles;
 mod triangulate;
 mod voxels;
+mod window;
 
 pub use blue_noise::BlueNoise;
 pub use closest::ClosestPoint;

@@ -6,7 +6,9 @@
 //! map), parts that are too deep are named from a *split*: a part of the triangle that
 //! is listed as if it were one more triangle.
 
+use crate::distribution::divide;
 use crate::subdivide::{Part, Piece, first_part, parts};
+use rayon::prelude::*;
 use std::collections::HashMap;
 
 /// Depth to which parts have a table entry, at 12 bytes: 5,461 parts, which stay in the
@@ -26,25 +28,51 @@ pub(crate) struct Pieces {
 }
 
 impl Pieces {
-    /// Packs `found`, pieces of a mesh of `triangles` triangles; `None` for more pieces
-    /// than 32 bits can name.
-    pub(crate) fn new(found: &[Piece], triangles: u32) -> Option<Self> {
-        let deepest = found.iter().map(|p| p.part).max().unwrap_or(0);
-        (0..=depth_of(deepest).min(TABLE_DEPTH))
+    /// Packs the pieces of `runs` of a mesh of `triangles` triangles; `None` for more
+    /// pieces than 32 bits can name.
+    pub(crate) fn new(runs: &[&[Piece]], triangles: u32) -> Option<Self> {
+        let parts = runs.par_iter().map(|run| run.iter().map(|p| p.part).max());
+        let deepest = depth_of(parts.max().flatten().unwrap_or(0));
+        if deepest <= TABLE_DEPTH
+            && let Some(pieces) = Self::whole(runs, triangles, deepest)
+        {
+            return Some(pieces);
+        }
+        (0..=deepest.min(TABLE_DEPTH))
             .rev()
-            .find_map(|depth| Self::with_depth(found, triangles, depth))
+            .find_map(|depth| Self::with_splits(runs, triangles, depth))
     }
 
-    /// Packs `found` with part indices down to `depth`, if all hosts can be named.
-    fn with_depth(found: &[Piece], triangles: u32, depth: u32) -> Option<Self> {
-        let part_bits = (first_part(depth + 1) - 1)
-            .checked_ilog2()
-            .map_or(0, |b| b + 1);
-        let hosts = 1u64 << (32 - part_bits);
+    /// Packs `runs`, whose parts are no deeper than `depth`, if triangle and part fit a
+    /// word: nearly always.
+    fn whole(runs: &[&[Piece]], triangles: u32, depth: u32) -> Option<Self> {
+        let part_bits = part_bits(depth);
+        if triangles as u64 > hosts(part_bits) {
+            return None;
+        }
+        let mut codes = vec![0; runs.iter().map(|run| run.len()).sum()];
+        let places = divide(&mut codes, runs.iter().map(|run| run.len()));
+        places.into_par_iter().zip(runs).for_each(|(codes, run)| {
+            for (code, piece) in codes.iter_mut().zip(*run) {
+                *code = piece.triangle << part_bits | piece.part;
+            }
+        });
+        Some(Self {
+            codes,
+            part_bits,
+            parts: parts(depth),
+            triangles,
+            splits: Vec::new(),
+        })
+    }
+
+    /// Packs `runs` with part indices down to `depth`, if all hosts can be named.
+    fn with_splits(runs: &[&[Piece]], triangles: u32, depth: u32) -> Option<Self> {
+        let part_bits = part_bits(depth);
         let mut splits = Vec::new();
         let mut named = HashMap::new();
-        let mut codes = Vec::with_capacity(found.len());
-        for piece in found {
+        let mut codes = Vec::with_capacity(runs.iter().map(|run| run.len()).sum());
+        for piece in runs.iter().flat_map(|run| run.iter()) {
             let (base, local) = cut_name(piece.part, depth);
             let host = match base {
                 0 => piece.triangle,
@@ -53,7 +81,7 @@ impl Pieces {
                     triangles + splits.len() as u32 - 1
                 }),
             };
-            if triangles as u64 + splits.len() as u64 > hosts {
+            if triangles as u64 + splits.len() as u64 > hosts(part_bits) {
                 return None;
             }
             codes.push(host << part_bits | local);
@@ -132,6 +160,18 @@ impl Names<'_> {
     }
 }
 
+/// Bits of the index of a part of depth `depth` at most.
+fn part_bits(depth: u32) -> u32 {
+    (first_part(depth + 1) - 1)
+        .checked_ilog2()
+        .map_or(0, |b| b + 1)
+}
+
+/// Triangles and splits that fit a word beside `part_bits` bits.
+fn hosts(part_bits: u32) -> u64 {
+    1 << (32 - part_bits)
+}
+
 /// How often the whole was cut to make part `index`.
 fn depth_of(index: u32) -> u32 {
     (0..)
@@ -174,9 +214,10 @@ mod tests {
             let triangles = 5000 << crowd.min(18);
             let found: Vec<Piece> = found
                 .into_iter()
-                .map(|(triangle, part)| Piece { triangle, part, weight: 1.0 })
+                .map(|(triangle, part)| Piece { triangle, part })
                 .collect();
-            let pieces = Pieces::new(&found, triangles).unwrap();
+            let runs: Vec<&[Piece]> = found.chunks(7).collect();
+            let pieces = Pieces::new(&runs, triangles).unwrap();
             for (packed, piece) in pieces.iter().zip(&found) {
                 prop_assert_eq!(packed, (piece.triangle, part_named(piece.part)));
             }

@@ -9,7 +9,7 @@
 use crate::distribution::Distribution;
 use crate::hilbert::hilbert_index;
 use crate::pieces::Pieces;
-use crate::subdivide::{Density, DensityField, pieces};
+use crate::subdivide::{Density, DensityField, Piece, cut};
 use crate::{Mesh, RootSequence, Spread, SurfacePoint, TiledDensity};
 use rayon::prelude::*;
 
@@ -35,11 +35,12 @@ impl RootSampler {
     }
 
     fn by(mesh: &Mesh, density: &impl DensityField, seed: u64) -> Option<Self> {
-        let found = pieces(mesh, &order_along_curve(mesh), density);
-        let weights: Vec<f64> = found.iter().map(|p| p.weight).collect();
+        let runs = cut(mesh, &order_along_curve(mesh), density);
+        let weights: Vec<&[f64]> = runs.iter().map(|run| &run.weights[..]).collect();
+        let pieces: Vec<&[Piece]> = runs.iter().map(|run| &run.pieces[..]).collect();
         Some(Self {
-            distribution: Distribution::new(&weights)?,
-            pieces: Pieces::new(&found, mesh.triangles().len() as u32)?,
+            distribution: Distribution::of_runs(&weights)?,
+            pieces: Pieces::new(&pieces, mesh.triangles().len() as u32)?,
             sequence: RootSequence::new(seed, Spread::default()),
             seed,
         })
@@ -209,8 +210,10 @@ mod tests {
         let mut counts = vec![0f64; triangles];
         (0..n).for_each(|i| counts[sampler.root(i).triangle as usize] += 1.0);
         let mut expected = vec![0.0; triangles];
-        for piece in pieces(&mesh, &(0..triangles as u32).collect::<Vec<_>>(), &density) {
-            expected[piece.triangle as usize] += piece.weight;
+        for run in cut(&mesh, &(0..triangles as u32).collect::<Vec<_>>(), &density) {
+            for (piece, weight) in run.pieces.iter().zip(run.weights) {
+                expected[piece.triangle as usize] += weight;
+            }
         }
         let scale = n as f64 / expected.iter().sum::<f64>();
         let chi_square: f64 = counts

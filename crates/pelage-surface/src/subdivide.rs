@@ -30,6 +30,17 @@ pub(crate) trait DensityField: Sync {
 
     /// What the factor is multiplied by at `uv`.
     fn at(&self, uv: Vec2) -> f32;
+
+    /// Appends [`at`](Self::at) for each of `weights` of the second and third of `corners`.
+    #[inline(always)]
+    fn read(&self, corners: [Vec2; 3], weights: &[[f32; 2]], values: &mut Vec<f32>) {
+        let [a, b, c] = corners;
+        values.extend(
+            weights
+                .iter()
+                .map(|&[u, v]| self.at(a * (1.0 - u - v) + b * u + c * v)),
+        );
+    }
 }
 
 impl DensityField for Density<'_> {
@@ -47,6 +58,16 @@ impl DensityField for Density<'_> {
         let sample =
             |(map, channel, wrap): (&ImageMap, _, _)| map.sample(uv.x, uv.y, channel, wrap);
         self.map.map_or(1.0, sample)
+    }
+
+    #[inline(always)]
+    fn read(&self, corners: [Vec2; 3], weights: &[[f32; 2]], values: &mut Vec<f32>) {
+        match self.map {
+            Some((map, channel, wrap)) => {
+                map.sample_triangle(corners, weights, channel, wrap, values)
+            }
+            None => values.resize(values.len() + weights.len(), 1.0),
+        }
     }
 }
 
@@ -143,55 +164,75 @@ pub(crate) fn parts(depth: u32) -> Vec<Part> {
     parts
 }
 
-/// A part of a triangle with constant density.
+/// Which part of which triangle a piece of constant density is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Piece {
     pub triangle: u32,
     pub part: u32,
-    pub weight: f64,
 }
 
-/// The pieces of all triangles in the order given, without those of density zero.
-pub(crate) fn pieces(mesh: &Mesh, order: &[u32], density: &impl DensityField) -> Vec<Piece> {
-    let leaves = Leaves::new();
+/// The pieces of some triangles, in their order, without those of density zero.
+#[derive(Debug, Default)]
+pub(crate) struct Run {
+    pub pieces: Vec<Piece>,
+    /// Area times density of each.
+    pub weights: Vec<f64>,
+}
+
+/// Triangles in a run: their pieces stay in the second-level cache.
+const RUN: usize = 256;
+
+/// The pieces of all triangles in the order given, run by run.
+pub(crate) fn cut(mesh: &Mesh, order: &[u32], density: &impl DensityField) -> Vec<Run> {
+    let table = Table::new();
     let level = Level::new();
     order
-        .par_chunks(256)
+        .par_chunks(RUN)
         .map(|triangles| {
-            let mut pieces = Vec::new();
             let mut cutter = Cutter {
                 mesh,
                 density,
-                leaves: &leaves,
+                table: &table,
                 levels: [const { Vec::new() }; MAX_DEPTH as usize + 1],
+                run: Run::default(),
             };
             dispatch!(level, simd => {
                 let _ = simd;
                 for &triangle in triangles {
-                    cutter.cut(triangle, &mut pieces);
+                    cutter.cut(triangle);
                 }
             });
-            pieces
+            cutter.run
         })
-        .collect::<Vec<_>>()
-        .concat()
+        .collect()
 }
 
-/// Depth to which centres come from a table; below, from a part of the table's depth
-/// inside another.
+/// Depth to which parts come from a table; below, from a part of the table inside
+/// another, which reaches [`MAX_DEPTH`].
 const TABLE_DEPTH: u32 = 6;
 
-/// Centres of the parts down to [`TABLE_DEPTH`], at the index that names them.
-struct Leaves(Vec<[f32; 2]>);
+/// The parts down to [`TABLE_DEPTH`] and their centres, at the index that names them.
+struct Table {
+    parts: Vec<Part>,
+    centres: Vec<[f32; 2]>,
+}
 
-impl Leaves {
+impl Table {
     fn new() -> Self {
-        let centre = |part: Part| part.at(1.0 / 3.0, 1.0 / 3.0);
-        Self(parts(TABLE_DEPTH).into_iter().map(centre).collect())
+        let parts = parts(TABLE_DEPTH);
+        let centre = |part: &Part| part.at(1.0 / 3.0, 1.0 / 3.0);
+        Self {
+            centres: parts.iter().map(centre).collect(),
+            parts,
+        }
     }
 
-    fn of_depth(&self, depth: u32) -> &[[f32; 2]] {
-        &self.0[first_part(depth)..first_part(depth + 1)]
+    fn parts(&self, depth: u32) -> &[Part] {
+        &self.parts[first_part(depth)..first_part(depth + 1)]
+    }
+
+    fn centres(&self, depth: u32) -> &[[f32; 2]] {
+        &self.centres[first_part(depth)..first_part(depth + 1)]
     }
 }
 
@@ -201,14 +242,15 @@ const MIXED: f32 = f32::NAN;
 struct Cutter<'a, D> {
     mesh: &'a Mesh,
     density: &'a D,
-    leaves: &'a Leaves,
+    table: &'a Table,
     /// Densities of the parts of each depth.
     levels: [Vec<f32>; MAX_DEPTH as usize + 1],
+    run: Run,
 }
 
 impl<D: DensityField> Cutter<'_, D> {
     #[inline(always)]
-    fn cut(&mut self, triangle: u32, pieces: &mut Vec<Piece>) {
+    fn cut(&mut self, triangle: u32) {
         let area = self.mesh.area(triangle as usize);
         // A NaN has no area either.
         let has_area = area > 0.0 && area.is_finite();
@@ -221,13 +263,18 @@ impl<D: DensityField> Cutter<'_, D> {
             .find(|&d| !self.merge(d))
             .map_or(0, |d| d + 1);
         let weight = area * self.density.value() as f64;
-        self.emit(0, 0, uncut, &mut |d, i, density| {
-            pieces.push(Piece {
-                triangle,
-                part: (first_part(d) + i) as u32,
-                weight: weight / (1u64 << (2 * d)) as f64 * density as f64,
+        let (levels, run) = (&self.levels, &mut self.run);
+        // The parts above are all mixed.
+        for part in 0..1 << (2 * uncut) {
+            emit(levels, uncut, part, &mut |d, i, density| {
+                run.pieces.push(Piece {
+                    triangle,
+                    part: (first_part(d) + i) as u32,
+                });
+                let share = weight / (1u64 << (2 * d)) as f64;
+                run.weights.push(share * density as f64);
             });
-        });
+        }
     }
 
     /// Reads the density at the centres of the parts that are small enough for the map;
@@ -240,23 +287,17 @@ impl<D: DensityField> Cutter<'_, D> {
             .density
             .texels(uv)
             .map_or(0, |size| depth_for(uv, size));
-        let leaves = self.leaves.of_depth(depth.min(TABLE_DEPTH));
         let level = &mut self.levels[depth as usize];
         level.clear();
-        for_each_part(
-            Part::WHOLE,
-            depth.saturating_sub(TABLE_DEPTH),
-            &mut |base| {
-                let [a, b, c] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[p, q]| {
-                    let [u, v] = base.at(p, q);
-                    uv[0] * (1.0 - u - v) + uv[1] * u + uv[2] * v
-                });
-                level.extend(leaves.iter().map(|&[u, v]| {
-                    let at = a * (1.0 - u - v) + b * u + c * v;
-                    self.density.at(at)
-                }));
-            },
-        );
+        let within = depth.min(TABLE_DEPTH);
+        for base in self.table.parts(depth - within) {
+            let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[p, q]| {
+                let [u, v] = base.at(p, q);
+                uv[0] * (1.0 - u - v) + uv[1] * u + uv[2] * v
+            });
+            let centres = self.table.centres(within);
+            self.density.read(corners, centres, level);
+        }
         depth
     }
 
@@ -275,35 +316,23 @@ impl<D: DensityField> Cutter<'_, D> {
         }));
         merged
     }
+}
 
-    /// Calls `visit` with depth, number and density of the largest parts of one density.
-    /// Parts above depth `uncut` are known to be mixed.
-    fn emit(&self, d: u32, i: usize, uncut: u32, visit: &mut impl FnMut(u32, usize, f32)) {
-        let density = if d < uncut {
-            MIXED
-        } else {
-            self.levels[d as usize][i]
-        };
-        if density.is_nan() {
-            for child in 4 * i..4 * i + 4 {
-                self.emit(d + 1, child, uncut, visit);
-            }
-        } else if density > 0.0 {
-            visit(d, i, density);
-        }
+/// Calls `visit` with depth, number and density of the largest parts of one density in
+/// part `i` of depth `d`.
+#[inline(always)]
+fn emit(levels: &[Vec<f32>], d: u32, i: usize, visit: &mut impl FnMut(u32, usize, f32)) {
+    let density = levels[d as usize][i];
+    if density.is_nan() {
+        emit_parts(levels, d, i, visit);
+    } else if density > 0.0 {
+        visit(d, i, density);
     }
 }
 
-/// Calls `visit` with the parts `depth` cuts below `part`, in the order of their names.
-#[inline]
-fn for_each_part(part: Part, depth: u32, visit: &mut impl FnMut(Part)) {
-    match depth {
-        0 => visit(part),
-        _ => {
-            for child in part.children() {
-                for_each_part(child, depth - 1, visit);
-            }
-        }
+fn emit_parts(levels: &[Vec<f32>], d: u32, i: usize, visit: &mut impl FnMut(u32, usize, f32)) {
+    for child in 4 * i..4 * i + 4 {
+        emit(levels, d + 1, child, visit);
     }
 }
 
