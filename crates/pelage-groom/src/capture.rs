@@ -5,8 +5,10 @@
 use crate::clock::{Clock, Stage};
 use crate::color::ColorMix;
 use crate::locator::Near;
-use crate::plan::Plan;
+use crate::plan::{Fields, Plan};
 use crate::recipe::Method;
+use crate::stages::frizz::Frizz;
+use crate::stages::kink::Kink;
 use crate::stages::look::Look;
 use crate::stages::roots::{Root, root};
 use crate::stages::scale;
@@ -47,6 +49,10 @@ pub struct Capture {
     pub(crate) share_starts: Vec<u32>,
     pub(crate) shares: Vec<Share>,
     pub(crate) looks: Vec<Look>,
+    /// Empty where the recipe has none.
+    pub(crate) frizz: Vec<Frizz>,
+    /// Empty where the recipe has none.
+    pub(crate) kinks: Vec<Kink>,
     dropped: Dropped,
     hairs: Vec<u64>,
     places: Vec<SurfacePoint>,
@@ -119,6 +125,17 @@ impl Plan {
         let started = clock.stop(Stage::Roots, started);
         self.weigh(capture);
         let started = clock.stop(Stage::Weights, started);
+        let Fields { frizz, kink, .. } = &self.fields;
+        capture.frizz.clear();
+        if let Some(fields) = frizz {
+            let hairs = capture.roots.iter().map(|root| fields.at(root));
+            capture.frizz.extend(hairs);
+        }
+        capture.kinks.clear();
+        if let Some(fields) = kink {
+            let hairs = capture.roots.iter().map(|root| fields.at(root));
+            capture.kinks.extend(hairs);
+        }
         capture.looks.clear();
         capture
             .looks

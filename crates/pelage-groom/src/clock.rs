@@ -13,6 +13,10 @@ pub enum Stage {
     Maps,
     /// Mixing of guides, and scale.
     Interpolate,
+    /// Frizz.
+    Frizz,
+    /// Kink.
+    Kink,
     /// Colours, opacities and widths along the hair.
     Look,
     /// Root frames of the pose, and positions.
@@ -25,11 +29,13 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order in which they run.
-    pub const ALL: [Stage; 8] = [
+    pub const ALL: [Stage; 10] = [
         Stage::Roots,
         Stage::Weights,
         Stage::Maps,
         Stage::Interpolate,
+        Stage::Frizz,
+        Stage::Kink,
         Stage::Look,
         Stage::World,
         Stage::Frames,
@@ -43,6 +49,8 @@ impl Stage {
             Stage::Weights => "weights",
             Stage::Maps => "maps",
             Stage::Interpolate => "interpolate",
+            Stage::Frizz => "frizz",
+            Stage::Kink => "kink",
             Stage::Look => "look",
             Stage::World => "world",
             Stage::Frames => "frames",

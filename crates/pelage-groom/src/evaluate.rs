@@ -7,7 +7,7 @@ use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::plan::Plan;
 use crate::stages::roots::Root;
-use crate::stages::{frames, interpolate, look, scale, world};
+use crate::stages::{frames, frizz, interpolate, kink, look, scale, world};
 use pelage_curves::{FrameScratch, Vec3};
 use pelage_strands::{StrandBuffer, StrandMeta};
 use pelage_surface::{Mesh, RootFrame};
@@ -17,17 +17,26 @@ use pelage_surface::{Mesh, RootFrame};
 pub struct Scratch {
     local: Vec<Vec3>,
     posed: Vec<RootFrame>,
+    noise: [Vec<Vec3>; 2],
     frames: FrameScratch,
+}
+
+/// A moment in which hairs are made: where the surface is, and the time.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Pose<'a> {
+    /// The posed surface, with the topology of the rest mesh (see [`Mesh::posed`]); `None`
+    /// is the rest pose itself.
+    pub surface: Option<&'a Mesh>,
+    /// In frames; moves the animated part of frizz.
+    pub time: f64,
 }
 
 impl Plan {
     /// Writes the strands of `capture` on `pose` into `out`, which is emptied first.
-    /// `pose` has the topology of the rest mesh (see [`Mesh::posed`]); `None` is the
-    /// rest pose itself.
     pub fn evaluate(
         &self,
         capture: &Capture,
-        pose: Option<&Mesh>,
+        pose: Pose,
         scratch: &mut Scratch,
         out: &mut StrandBuffer,
         clock: &mut Clock,
@@ -36,17 +45,29 @@ impl Plan {
         self.lay_out(capture, out);
         self.interpolate(capture, scratch, out);
         let started = clock.stop(Stage::Interpolate, started);
+        let Scratch { local, noise, .. } = scratch;
+        if let Some(fields) = &self.fields.frizz {
+            let (hairs, time) = (&capture.frizz, pose.time as f32);
+            frizz::frizz(fields, hairs, time, |i| out.vertices(i), local, noise);
+        }
+        let started = clock.stop(Stage::Frizz, started);
+        if let Some(fields) = &self.fields.kink {
+            let (hairs, frames) = (&capture.kinks, &capture.frames);
+            kink::kink(fields, hairs, frames, |i| out.vertices(i), local, noise);
+        }
+        let started = clock.stop(Stage::Kink, started);
         self.color(capture, out);
         let started = clock.stop(Stage::Look, started);
         let Scratch {
             local,
             posed,
             frames: side_by_side,
+            ..
         } = scratch;
-        let frames = if pose.is_none() && !self.roots.is_displaced() {
+        let frames = if pose.surface.is_none() && !self.roots.is_displaced() {
             &capture.frames
         } else {
-            let surface = pose.unwrap_or(&self.roots.rest);
+            let surface = pose.surface.unwrap_or(&self.roots.rest);
             let frame = |root: &Root| self.roots.frame(surface, &root.place, root.uv);
             posed.clear();
             posed.extend(capture.roots.iter().map(frame));

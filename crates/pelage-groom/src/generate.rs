@@ -2,7 +2,7 @@
 
 use crate::capture::{Capture, Dropped};
 use crate::clock::{Clock, Stage};
-use crate::evaluate::Scratch;
+use crate::evaluate::{Pose, Scratch};
 use crate::in_order::{Chunks, in_order};
 use crate::plan::Plan;
 use pelage_strands::{Amount, Sink, SinkError, StrandBuffer, StreamInfo};
@@ -25,13 +25,14 @@ pub struct Request {
     pub hairs: Range<u64>,
     /// Threads to use; at least one is.
     pub threads: usize,
+    /// The frame of a still; where [`StreamInfo::frames`] names some, it is not looked at.
+    pub frame: f64,
     /// What the sink is told before the first strand; how much will come is added.
     pub info: StreamInfo,
 }
 
-/// Gives the surface of frame number `index` (0 for a still); `None` is the rest pose.
-pub type Poses<'a> =
-    dyn FnMut(usize) -> Result<Option<Arc<Mesh>>, Box<dyn Error + Send + Sync>> + 'a;
+/// Gives the surface at a frame; `None` is the rest pose.
+pub type Poses<'a> = dyn FnMut(f64) -> Result<Option<Arc<Mesh>>, Box<dyn Error + Send + Sync>> + 'a;
 
 /// Why a run stopped.
 #[derive(Debug, thiserror::Error)]
@@ -77,7 +78,10 @@ pub fn generate(
     progress: &mut dyn FnMut(u64) -> bool,
 ) -> Result<Report, GenerateError> {
     let mut report = Report::default();
-    let frames = request.info.frames.len().max(1);
+    let frames = match &request.info.frames[..] {
+        [] => &[request.frame],
+        frames => frames,
+    };
     let hairs = plan.roots().rooted(request.hairs.clone());
     let total = hairs.end.saturating_sub(hairs.start);
     let each = (CHUNK_VERTICES / plan.most_vertices()).clamp(1, CHUNK);
@@ -88,14 +92,16 @@ pub fn generate(
         }),
         ..request.info.clone()
     })?;
-    for index in 0..frames {
-        let frame = request.info.frames.get(index).copied().unwrap_or(0.0);
-        let pose = poses(index).map_err(|error| GenerateError::Pose { frame, error })?;
+    for (index, &frame) in frames.iter().enumerate() {
+        let surface = poses(frame).map_err(|error| GenerateError::Pose { frame, error })?;
         sink.begin_frame(index)?;
         let mut run = Run {
             plan,
             chunks: Chunks::new(hairs.clone(), each),
-            pose: pose.as_deref(),
+            pose: Pose {
+                surface: surface.as_deref(),
+                time: frame,
+            },
             done: total * index as u64,
             report: Report {
                 clock: std::mem::take(&mut report.clock),
@@ -127,7 +133,7 @@ struct Worker {
 }
 
 impl Worker {
-    fn make(&mut self, plan: &Plan, hairs: Range<u64>, pose: Option<&Mesh>, chunk: &mut Chunk) {
+    fn make(&mut self, plan: &Plan, hairs: Range<u64>, pose: Pose, chunk: &mut Chunk) {
         chunk.clock = Clock::default();
         plan.capture(hairs, &mut self.capture, &mut chunk.clock);
         chunk.dropped = self.capture.dropped();
@@ -145,7 +151,7 @@ impl Worker {
 struct Run<'a> {
     plan: &'a Plan,
     chunks: Chunks,
-    pose: Option<&'a Mesh>,
+    pose: Pose<'a>,
     /// Hairs taken, with those of the frames before.
     done: u64,
     report: Report,

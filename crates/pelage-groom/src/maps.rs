@@ -147,6 +147,19 @@ impl<'a> FieldMaker<'a> {
         Ok(field)
     }
 
+    /// The three entries of a list of frequencies.
+    pub(crate) fn frequencies(
+        &mut self,
+        key: &str,
+        [x, y, z]: &[ScalarProperty; 3],
+    ) -> Result<[ScalarField; 3], PlanError> {
+        Ok([
+            self.scalar(&format!("{key}[0]"), x)?,
+            self.scalar(&format!("{key}[1]"), y)?,
+            self.scalar(&format!("{key}[2]"), z)?,
+        ])
+    }
+
     pub(crate) fn color(
         &mut self,
         key: &str,

@@ -7,6 +7,8 @@ use crate::guide::{self, Guide};
 use crate::guide_set::GuideSet;
 use crate::maps::{ColorField, FieldMaker, ScalarField};
 use crate::recipe::{self, GuideSource, Method, Recipe};
+use crate::stages::frizz::FrizzFields;
+use crate::stages::kink::KinkFields;
 use crate::{PlanError, RootPlan, grow, root_plan};
 use pelage_surface::Mesh;
 
@@ -29,6 +31,8 @@ pub struct Plan {
 pub(crate) struct Fields {
     pub scale: ScalarField,
     pub scale_random: ScalarField,
+    pub frizz: Option<FrizzFields>,
+    pub kink: Option<KinkFields>,
     pub color: [ColorField; 2],
     pub color_space: ColorSpace,
     pub opacity: [ScalarField; 2],
@@ -149,6 +153,8 @@ impl Fields {
         Ok(Self {
             scale: maker.scalar("scale.amount", &r.scale.amount)?,
             scale_random: maker.scalar("scale.random", &r.scale.random)?,
+            frizz: FrizzFields::new(&r.frizz, maker, r.hair.seed)?,
+            kink: KinkFields::new(&r.kink, maker, r.hair.seed)?,
             color: [
                 maker.color("color.root", &r.color.root)?,
                 maker.color("color.tip", &r.color.tip)?,

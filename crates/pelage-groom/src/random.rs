@@ -15,6 +15,10 @@ pub enum Channel {
     GuideRoot = 2,
     /// Phase of a grown guide's curl.
     GuideCurl = 3,
+    /// The noise of `frizz`.
+    Frizz = 4,
+    /// The noise of `kink`.
+    Kink = 5,
 }
 
 /// A number in 0..1 for hair `hair` of the groom seeded `seed`.
@@ -28,6 +32,11 @@ pub enum Channel {
 pub fn uniform(seed: u64, hair: u64, channel: Channel) -> f32 {
     let word = hash(hash(seed ^ hash(channel as u64)) ^ hair);
     (word >> 40) as f32 * (1.0 / (1u32 << 24) as f32)
+}
+
+/// The seed of a noise in the groom seeded `seed`.
+pub(crate) fn noise_seed(seed: u64, channel: Channel) -> u32 {
+    (hash(seed ^ hash(channel as u64)) >> 32) as u32
 }
 
 #[cfg(test)]

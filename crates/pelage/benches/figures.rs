@@ -66,6 +66,7 @@ fn plan() -> Result<Plan, Box<dyn std::error::Error>> {
 
 fn run(plan: &Plan, threads: usize, sink: &mut dyn Sink) -> Result<Report, String> {
     let request = Request {
+        frame: 0.0,
         hairs: 0..HAIRS,
         threads,
         info: StreamInfo::default(),

@@ -31,6 +31,7 @@ impl Loaded {
     /// A request for `hairs` on `threads` threads, as a still.
     pub fn request(&self, hairs: Range<u64>, threads: usize) -> Request {
         Request {
+            frame: 0.0,
             hairs,
             threads,
             info: self.info.clone(),

@@ -4,7 +4,9 @@
 //! what it does, where that comes from, and the space and unit of its arrays.
 
 pub mod frames;
+pub mod frizz;
 pub mod interpolate;
+pub mod kink;
 pub mod look;
 pub mod roots;
 pub mod scale;

@@ -3,7 +3,7 @@
 use pelage_curves::Vec3;
 use pelage_curves::glam::Mat3;
 use pelage_groom::recipe::Recipe;
-use pelage_groom::{Capture, Clock, Groom, Images, Plan, Request, Scratch, generate};
+use pelage_groom::{Capture, Clock, Groom, Images, Plan, Pose, Request, Scratch, generate};
 use pelage_strands::{Collect, StrandBuffer, StreamInfo};
 use pelage_surface::{ImageMap, Mesh, PolygonMesh};
 use std::ops::Range;
@@ -27,15 +27,21 @@ pub struct Fixture {
 /// Displaced roots.
 pub const DISPLACED: &str = "roots.displacement = { value = 0.1, map = 'length.png' }";
 
-/// Every kind of roots.
+/// Displaced roots, and noise on all hairs.
+const NOISY: &str = "
+    roots.displacement = { value = 0.1, map = 'length.png' }
+    frizz = { root = 0.1, tip = { value = 0.3, map = 'length.png' }, frequency = [2, 3, 2] }
+    kink = { root = 0.01, tip = 0.05, frequency = [20, { value = 30, map = 'length.png' }, 20] }
+";
+
+/// Grooms of every kind.
 pub fn kinds() -> impl Iterator<Item = Fixture> {
     let patterns = ["roots.pattern = 'random'", "roots.pattern = 'blue-noise'"];
-    ["", DISPLACED, patterns[0], patterns[1]]
-        .into_iter()
-        .map(|more| Fixture {
-            more,
-            ..Fixture::default()
-        })
+    let kinds = ["", DISPLACED, NOISY, patterns[0], patterns[1]];
+    kinds.into_iter().map(|more| Fixture {
+        more,
+        ..Fixture::default()
+    })
 }
 
 impl Default for Fixture {
@@ -141,6 +147,7 @@ impl Fixture {
 pub fn collect(plan: &Plan, hairs: Range<u64>, threads: usize) -> StrandBuffer {
     let mut sink = Collect::default();
     let request = Request {
+        frame: 0.0,
         hairs,
         threads,
         info: StreamInfo::default(),
@@ -154,6 +161,10 @@ pub fn strands(plan: &Plan, hairs: &[u64], pose: Option<&Mesh>) -> StrandBuffer 
     let (mut capture, mut clock) = (Capture::default(), Clock::default());
     let mut out = StrandBuffer::new();
     plan.capture_listed(hairs, &mut capture, &mut clock);
+    let pose = Pose {
+        surface: pose,
+        time: 0.0,
+    };
     plan.evaluate(
         &capture,
         pose,

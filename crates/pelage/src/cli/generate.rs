@@ -63,7 +63,6 @@ pub fn threads_of(asked: usize) -> usize {
 pub struct Job {
     loaded: Loaded,
     request: pelage::Request,
-    frame: f64,
     load_time: Duration,
     generate_time: Duration,
 }
@@ -80,7 +79,7 @@ impl Job {
         {
             bail!("surface.posed has a pose for each frame: say which with --frame or --frames");
         }
-        job.frame = args.run.frame.map_or(0.0, |f| f as f64);
+        job.request.frame = args.run.frame.map_or(0.0, |f| f as f64);
         job.request.info.frames = frames;
         if !(args.fps > 0.0 && args.fps.is_finite()) {
             bail!("--fps {}: expected a number above 0", args.fps);
@@ -98,7 +97,6 @@ impl Job {
         Ok(Self {
             loaded,
             request,
-            frame: 0.0,
             load_time: started.elapsed(),
             generate_time: Duration::ZERO,
         })
@@ -107,11 +105,9 @@ impl Job {
     /// Runs the plan into `sink`, with a progress bar.
     pub fn run(&mut self, sink: &mut dyn Sink, say: &Say) -> Result<Report> {
         let started = Instant::now();
-        let frames = self.request.info.frames.clone();
         let bar = Bar::new(say, self.hairs() * self.frames() as u64, "hairs");
-        let (loaded, still) = (&mut self.loaded, self.frame);
-        let mut poses = |index: usize| {
-            let frame = frames.get(index).copied().unwrap_or(still);
+        let loaded = &mut self.loaded;
+        let mut poses = |frame| {
             loaded
                 .poses
                 .pose(&loaded.recipe, loaded.plan.rest(), frame)
@@ -183,7 +179,7 @@ impl Job {
             .frames
             .first()
             .copied()
-            .unwrap_or(self.frame);
+            .unwrap_or(self.request.frame);
         let loaded = &mut self.loaded;
         let posed = loaded
             .poses

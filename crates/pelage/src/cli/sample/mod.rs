@@ -64,6 +64,7 @@ impl Job {
             .pose(&loaded.recipe, loaded.plan.rest(), frame)?;
         Ok(Self {
             request: Request {
+                frame: 0.0,
                 hairs: wanted,
                 threads: threads_of(args.run.threads),
                 info: loaded.info.clone(),

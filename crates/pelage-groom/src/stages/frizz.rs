@@ -1,0 +1,150 @@
+//! Frizz: hairs bent as a whole, each toward a direction that noise gives its root.
+//!
+//! Source: document 004, section 2.2.5, with its errata: the animated part moves the
+//! domain of the noise (`frequency · root + speed · time · direction`) instead of
+//! multiplying it. `p += F · min(root · 4(t - t²) + tip · t², max(root, tip))` with
+//! t = i / segments, where F is three noises of the root at rest; its part along the
+//! normal points into the skin, so that frizz does not lengthen hair. The root stays.
+//! Local space, unit of the mesh; frequencies per unit of the mesh, time in frames.
+
+use crate::maps::{FieldMaker, ScalarField};
+use crate::noise::noise_vectors;
+use crate::random::{Channel, noise_seed};
+use crate::recipe;
+use crate::{PlanError, stages::roots::Root};
+use pelage_curves::{Vec2, Vec3};
+use std::ops::Range;
+
+/// The properties of frizz over the surface.
+#[derive(Clone, Debug)]
+pub struct FrizzFields {
+    frequency: [ScalarField; 3],
+    root: ScalarField,
+    tip: ScalarField,
+    moving: ScalarField,
+    speed: ScalarField,
+    direction: Vec3,
+    seed: u32,
+}
+
+/// The frizz of one hair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frizz {
+    /// Where its root lies in the domain of the noise.
+    place: Vec3,
+    /// How far that place moves in a unit of time.
+    velocity: Vec3,
+    /// Part of the frizz that moves, 0..=1.
+    moving: f32,
+    root: f32,
+    tip: f32,
+}
+
+impl FrizzFields {
+    /// Reads `[frizz]`; `None` where it bends nothing.
+    pub(crate) fn new(
+        frizz: &recipe::Frizz,
+        maker: &mut FieldMaker,
+        seed: u64,
+    ) -> Result<Option<Self>, PlanError> {
+        let fields = Self {
+            frequency: maker.frequencies("frizz.frequency", &frizz.frequency)?,
+            root: maker.scalar("frizz.root", &frizz.root)?,
+            tip: maker.scalar("frizz.tip", &frizz.tip)?,
+            moving: maker.scalar("frizz.animation.amount", &frizz.animation.amount)?,
+            speed: maker.scalar("frizz.animation.speed", &frizz.animation.speed)?,
+            direction: Vec3::from(frizz.animation.direction),
+            seed: noise_seed(seed, Channel::Frizz),
+        };
+        let bends = !(fields.root.is_zero() && fields.tip.is_zero());
+        Ok(bends.then_some(fields))
+    }
+
+    /// The frizz of the hair that grows at `root`.
+    pub(crate) fn at(&self, root: &Root) -> Frizz {
+        let uv: Vec2 = root.uv;
+        Frizz {
+            place: frequency(&self.frequency, uv) * root.rest,
+            velocity: self.direction * self.speed.at(uv),
+            moving: self.moving.at(uv).clamp(0.0, 1.0),
+            root: self.root.at(uv).max(0.0),
+            tip: self.tip.at(uv).max(0.0),
+        }
+    }
+
+    /// Whether any of `hairs` moves with time.
+    fn is_moving(hairs: &[Frizz]) -> bool {
+        hairs.iter().any(|hair| hair.moving > 0.0)
+    }
+}
+
+/// Frequencies along the axes at `uv`, at least 0.
+pub(crate) fn frequency(fields: &[ScalarField; 3], uv: Vec2) -> Vec3 {
+    let [x, y, z] = fields.each_ref().map(|field| field.at(uv).max(0.0));
+    Vec3::new(x, y, z)
+}
+
+/// Bends hairs at `time`; hair `i` has the vertices `range(i)` of `local`. `places` and
+/// `bends` are scratch.
+pub fn frizz(
+    fields: &FrizzFields,
+    hairs: &[Frizz],
+    time: f32,
+    range: impl Fn(usize) -> Range<usize>,
+    local: &mut [Vec3],
+    [places, bends]: &mut [Vec<Vec3>; 2],
+) {
+    let noise_at = |time: f32, places: &mut Vec<Vec3>, bends: &mut Vec<Vec3>| {
+        places.clear();
+        places.extend(hairs.iter().map(|hair| hair.place + hair.velocity * time));
+        bends.resize(hairs.len(), Vec3::ZERO);
+        noise_vectors(fields.seed, places, bends);
+    };
+    noise_at(0.0, places, bends);
+    if time != 0.0 && FrizzFields::is_moving(hairs) {
+        let mut moved = Vec::new();
+        noise_at(time, places, &mut moved);
+        for ((bend, moved), hair) in bends.iter_mut().zip(moved).zip(hairs) {
+            *bend = *bend * (1.0 - hair.moving) + moved * hair.moving;
+        }
+    }
+    for (i, (hair, bend)) in hairs.iter().zip(&*bends).enumerate() {
+        let toward = Vec3::new(bend.x, bend.y, -bend.z.abs());
+        along(hair, toward, &mut local[range(i)]);
+    }
+}
+
+fn along(hair: &Frizz, toward: Vec3, vertices: &mut [Vec3]) {
+    let step = 1.0 / (vertices.len().max(2) - 1) as f32;
+    let most = hair.root.max(hair.tip);
+    for (i, vertex) in vertices.iter_mut().enumerate() {
+        let t = i as f32 * step;
+        let profile = hair.root * 4.0 * (t - t * t) + hair.tip * t * t;
+        *vertex += toward * profile.min(most);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn root_frizz_bends_the_middle_and_tip_frizz_the_tip() {
+        let hair = |root, tip| Frizz {
+            place: Vec3::ZERO,
+            velocity: Vec3::ZERO,
+            moving: 0.0,
+            root,
+            tip,
+        };
+        let bent = |hair| {
+            let mut vertices = [Vec3::ZERO; 5];
+            along(&hair, Vec3::X, &mut vertices);
+            vertices.map(|v| v.x)
+        };
+        assert_eq!(bent(hair(1.0, 0.0)), [0.0, 0.75, 1.0, 0.75, 0.0]);
+        assert_eq!(bent(hair(0.0, 1.0)), [0.0, 0.0625, 0.25, 0.5625, 1.0]);
+        // Nothing is bent more than the larger of the two says.
+        assert_eq!(bent(hair(1.0, 1.0)), [0.0, 0.8125, 1.0, 1.0, 1.0]);
+    }
+}
