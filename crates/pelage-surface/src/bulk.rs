@@ -83,19 +83,33 @@ impl RootSampler {
         self.draw_runs(&runs, &mut visit);
     }
 
+    /// Runs are shorter than a batch more often than not; so a batch takes what it can of
+    /// those that come along.
     fn draw_runs(&self, runs: &[Run], visit: &mut impl FnMut(&[u64], &[SurfacePoint])) {
         let mut hairs = [0; BATCH];
         let mut roots = [SurfacePoint::default(); BATCH];
         dispatch!(Level::new(), simd => {
             let _ = simd;
+            let mut filled = 0;
             for run in runs {
-                let last = run.count - 1;
-                for (k, hair) in hairs.iter_mut().enumerate() {
-                    *hair = run.index(last.min(k as u64));
+                let mut next = 0;
+                while next < run.count {
+                    let now = (BATCH - filled).min((run.count - next) as usize);
+                    for (k, hair) in hairs[filled..filled + now].iter_mut().enumerate() {
+                        *hair = run.index(next + k as u64);
+                    }
+                    filled += now;
+                    next += now as u64;
+                    if filled == BATCH {
+                        self.draw(|k| hairs[k], &mut roots);
+                        visit(&hairs, &roots);
+                        filled = 0;
+                    }
                 }
+            }
+            if filled > 0 {
                 self.draw(|k| hairs[k], &mut roots);
-                let drawn = run.count as usize;
-                visit(&hairs[..drawn], &roots[..drawn]);
+                visit(&hairs[..filled], &roots[..filled]);
             }
         });
     }

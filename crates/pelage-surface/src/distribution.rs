@@ -196,17 +196,19 @@ impl Tables<'_> {
         let further = (near[1] <= fraction) as usize + (near[2] <= fraction) as usize;
         let (mut index, mut start, mut end) = (first + further, near[further], near[further + 1]);
         if near[2] <= fraction {
-            index = self.bisect(first, self.grid[cell + 1] as usize, fraction);
+            index = bisect(self.starts, first, self.grid[cell + 1] as usize, fraction);
             (start, end) = (self.starts[index], self.starts[index + 1]);
         }
         (index, (start, end - start))
     }
+}
 
-    #[cold]
-    fn bisect(self, first: usize, last: usize, fraction: u64) -> usize {
-        let inside = &self.starts[first + 1..last + 1];
-        first + inside.partition_point(|&start| start <= fraction)
-    }
+/// The element among `first..=last` in whose share `fraction` falls. Takes no more than
+/// fits registers: a caller's loop would keep the rest in memory for it all the time.
+#[cold]
+#[inline(never)]
+fn bisect(starts: &[u64], first: usize, last: usize, fraction: u64) -> usize {
+    first + starts[first + 1..last + 1].partition_point(|&start| start <= fraction)
 }
 
 const TWO_64: f64 = 18_446_744_073_709_551_616.0;

@@ -143,20 +143,31 @@ impl Names<'_> {
     /// Triangle and part of piece `index`.
     #[inline(always)]
     pub(crate) fn get(self, index: usize) -> (u32, Part) {
-        let code = self.codes[index];
-        let part = self.parts[(code & ((1 << self.part_bits) - 1)) as usize];
-        let host = code >> self.part_bits;
-        if host < self.triangles {
-            (host, part)
-        } else {
-            self.below_split(host, part)
-        }
+        let (host, part) = self.host(index);
+        self.below(host, part).unwrap_or((host, part))
     }
 
-    #[cold]
-    fn below_split(self, host: u32, part: Part) -> (u32, Part) {
-        let (triangle, base) = self.splits[(host - self.triangles) as usize];
-        (triangle, base.part(part))
+    /// The host of piece `index`, and the part of it.
+    #[inline(always)]
+    pub(crate) fn host(self, index: usize) -> (u32, Part) {
+        let code = self.codes[index];
+        let part = self.parts[(code & ((1 << self.part_bits) - 1)) as usize];
+        (code >> self.part_bits, part)
+    }
+
+    /// Whether `host` is a triangle, and its parts are parts of that.
+    #[inline(always)]
+    pub(crate) fn is_triangle(self, host: u32) -> bool {
+        host < self.triangles
+    }
+
+    /// The triangle of a split, and the part of it that `part` of the split is; `None`
+    /// for a host that is a triangle.
+    #[inline]
+    pub(crate) fn below(self, host: u32, part: Part) -> Option<(u32, Part)> {
+        let split = host.checked_sub(self.triangles)?;
+        let (triangle, base) = self.splits[split as usize];
+        Some((triangle, base.part(part)))
     }
 }
 

@@ -8,8 +8,8 @@
 
 use crate::distribution::Distribution;
 use crate::hilbert::hilbert_index;
-use crate::pieces::Pieces;
-use crate::subdivide::{Density, DensityField, Piece, cut};
+use crate::pieces::{Names, Pieces};
+use crate::subdivide::{Density, DensityField, Part, Piece, cut};
 use crate::{Mesh, RootSequence, Spread, SurfacePoint, TiledDensity};
 use rayon::prelude::*;
 
@@ -95,33 +95,38 @@ impl RootSampler {
         self.lead(&xs, &ys, roots);
     }
 
-    /// Places `N` points of the unit square. In three passes, so that processors do the
+    /// Places `N` points of the unit square. In passes, so that processors do the
     /// arithmetic of many at once and wait for the memory of many at once.
     #[inline(always)]
     fn lead<const N: usize>(&self, xs: &[u64; N], ys: &[u32; N], places: &mut [SurfacePoint; N]) {
         let [mut inside, mut width] = [[0; N]; 2];
-        let mut triangles = [0; N];
-        let [mut u, mut v, mut size] = [[0.0; N]; 3];
-        let (tables, names) = (self.distribution.tables(), self.pieces.names());
+        let (mut pieces, mut triangles) = ([0; N], [0; N]);
+        let mut parts = [Part::WHOLE; N];
+        let tables = self.distribution.tables();
         for k in 0..N {
-            let (index, [along, all]) = tables.locate(xs[k]);
-            let (triangle, part) = names.get(index);
-            (inside[k], width[k]) = (along, all);
-            triangles[k] = triangle;
-            [u[k], v[k]] = part.origin;
-            size[k] = part.size;
+            (pieces[k], [inside[k], width[k]]) = tables.locate(xs[k]);
+        }
+        let names = self.pieces.names();
+        let mut splits = false;
+        for k in 0..N {
+            (triangles[k], parts[k]) = names.host(pieces[k]);
+            splits |= !names.is_triangle(triangles[k]);
+        }
+        if splits {
+            leave_splits(names, &mut triangles, &mut parts);
         }
         // Document 004, 2.1.5: a triangle's area grows with the square of the distance
         // from its first corner.
+        let [mut u, mut v] = [[0.0; N]; 2];
         for k in 0..N {
             let root = (inside[k] as f32 / width[k] as f32).sqrt();
-            u[k] += size[k] * (1.0 - root);
-            v[k] += size[k] * (fraction(ys[k]) * root);
+            [u[k], v[k]] = [1.0 - root, fraction(ys[k]) * root];
         }
         for k in 0..N {
+            let [u, v] = parts[k].at(u[k], v[k]);
             places[k] = SurfacePoint {
                 triangle: triangles[k],
-                barycentric: [(1.0 - u[k] - v[k]).max(0.0), u[k], v[k]],
+                barycentric: [(1.0 - u - v).max(0.0), u, v],
             };
         }
     }
@@ -167,6 +172,15 @@ impl RootSampler {
     /// The two numbers of each hair.
     pub fn sequence(&self) -> &RootSequence {
         &self.sequence
+    }
+}
+
+/// Names the triangles of those `hosts` that are splits, and their parts in them.
+#[cold]
+#[inline(never)]
+fn leave_splits(names: Names, hosts: &mut [u32], parts: &mut [Part]) {
+    for (host, part) in hosts.iter_mut().zip(parts) {
+        (*host, *part) = names.below(*host, *part).unwrap_or((*host, *part));
     }
 }
 
