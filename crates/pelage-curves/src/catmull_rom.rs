@@ -34,6 +34,73 @@ pub fn position([a, b, c, d]: [Vec3; 4], t: f32) -> Vec3 {
     b + (c1 + (c2 + c3 * t) * t) * t
 }
 
+/// The piece that the curve is in at `t`, and the parameter inside it; `t` is 0 at the
+/// first vertex, 1 at the last, and grows by the same from each vertex to the next
+/// (document 004, section 2.2.8). Clamped to the curve.
+///
+/// Panics for fewer than two points.
+fn locate(points: &[Vec3], t: f32) -> (usize, f32) {
+    let pieces = points.len() - 1;
+    let along = (t * pieces as f32).clamp(0.0, pieces as f32);
+    let piece = (along as usize).min(pieces - 1);
+    (piece, along - piece as f32)
+}
+
+/// Where a hair cut at `t` in 0..=1 ends: how many of `points` are kept, the last of them
+/// replaced by the point that comes with it, which lies on the curve. `None` where there
+/// is nothing to cut.
+///
+/// This is the vertex-only cut of document 004, section 2.2.8: it costs one point, and
+/// the last two pieces bend a little otherwise than they did. [`bezier_until`] is exact.
+///
+/// ```
+/// use pelage_curves::{Vec3, catmull_rom::cut};
+/// let points = [Vec3::ZERO, Vec3::X, Vec3::X * 2.0, Vec3::X * 3.0];
+/// assert_eq!(cut(&points, 0.5), Some((3, Vec3::X * 1.5)));
+/// assert_eq!(cut(&points, 1.0), None);
+/// ```
+pub fn cut(points: &[Vec3], t: f32) -> Option<(usize, Vec3)> {
+    if points.len() < 2 || t >= 1.0 {
+        return None;
+    }
+    let (piece, inside) = locate(points, t);
+    let end = position(window(points, piece), inside);
+    // A cut at a vertex keeps that vertex as its last, but never less than a piece.
+    let kept = if inside > 0.0 {
+        piece + 2
+    } else {
+        piece.max(1) + 1
+    };
+    Some((kept, end))
+}
+
+/// Bézier control points of the curve from its first vertex to `t` in 0..=1, exactly: one
+/// cubic a piece, neighbours sharing an end, the last piece split by de Casteljau's
+/// algorithm. Empty for fewer than two points.
+///
+/// ```
+/// use pelage_curves::{Vec3, catmull_rom::bezier_until};
+/// let points = [Vec3::ZERO, Vec3::X, Vec3::X * 2.0];
+/// assert_eq!(bezier_until(&points, 0.75).len(), 7);
+/// assert_eq!(bezier_until(&points, 0.75)[6], Vec3::X * 1.5625);
+/// ```
+pub fn bezier_until(points: &[Vec3], t: f32) -> Vec<Vec3> {
+    let Some(&first) = points.first().filter(|_| points.len() > 1) else {
+        return Vec::new();
+    };
+    let (last, inside) = locate(points, t);
+    let mut bezier = vec![first];
+    for piece in 0..last {
+        bezier.extend(&to_bezier(window(points, piece))[1..]);
+    }
+    let [a, b, c, d] = to_bezier(window(points, last));
+    let mix = |p: Vec3, q: Vec3| p + (q - p) * inside;
+    let (ab, bc, cd) = (mix(a, b), mix(b, c), mix(c, d));
+    let (abc, bcd) = (mix(ab, bc), mix(bc, cd));
+    bezier.extend([ab, abc, mix(abc, bcd)]);
+    bezier
+}
+
 /// Unit tangents at the vertices: the direction of `points[i + 1] - points[i - 1]`
 /// with ends duplicated. Where that difference vanishes (two neighbours of a
 /// vertex coincide) the outgoing, else the incoming edge is used; a curve without
@@ -111,6 +178,7 @@ fn roots_in_unit(a: f32, b: f32, c: f32) -> impl Iterator<Item = f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Basis, Curve, Wrap};
     use proptest::prelude::*;
 
     fn point() -> impl Strategy<Value = Vec3> {
@@ -142,6 +210,26 @@ mod tests {
             prop_assert!((high - seen_high).min_element() > -slack);
             prop_assert!((seen_low - low).max_element() < 1e-2);
             prop_assert!((high - seen_high).max_element() < 1e-2);
+        }
+
+        #[test]
+        fn a_cut_ends_on_the_curve_and_the_exact_one_is_the_curve(
+            points in prop::collection::vec(point(), 2..9), t in 0.0f32..1.0
+        ) {
+            let (piece, inside) = locate(&points, t);
+            let on_curve = position(window(&points, piece), inside);
+            let (kept, end) = cut(&points, t).unwrap();
+            prop_assert_eq!(end, on_curve);
+            prop_assert!((2..=points.len()).contains(&kept) && kept <= piece + 2);
+            let bezier = bezier_until(&points, t);
+            prop_assert_eq!(bezier.len(), 3 * piece + 4);
+            let curve = Curve::new(&bezier, Basis::Bezier, Wrap::Nonperiodic).unwrap();
+            for k in 0..=64 {
+                let along = k as f32 / 64.0;
+                let last = curve.position(piece, along);
+                let same = position(window(&points, piece), inside * along);
+                prop_assert!(last.distance(same) < 1e-4, "{} {}", last, same);
+            }
         }
 
         #[test]
