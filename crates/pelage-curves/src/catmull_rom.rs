@@ -38,9 +38,9 @@ pub fn position([a, b, c, d]: [Vec3; 4], t: f32) -> Vec3 {
 /// first vertex, 1 at the last, and grows by the same from each vertex to the next
 /// (document 004, section 2.2.8). Clamped to the curve.
 ///
-/// Panics for fewer than two points.
-fn locate(points: &[Vec3], t: f32) -> (usize, f32) {
-    let pieces = points.len() - 1;
+/// `vertices` is at least two.
+fn locate(vertices: usize, t: f32) -> (usize, f32) {
+    let pieces = vertices - 1;
     let along = (t * pieces as f32).clamp(0.0, pieces as f32);
     let piece = (along as usize).min(pieces - 1);
     (piece, along - piece as f32)
@@ -63,15 +63,26 @@ pub fn cut(points: &[Vec3], t: f32) -> Option<(usize, Vec3)> {
     if points.len() < 2 || t >= 1.0 {
         return None;
     }
-    let (piece, inside) = locate(points, t);
+    let (piece, inside) = locate(points.len(), t);
     let end = position(window(points, piece), inside);
-    // A cut at a vertex keeps that vertex as its last, but never less than a piece.
-    let kept = if inside > 0.0 {
-        piece + 2
-    } else {
-        piece.max(1) + 1
-    };
-    Some((kept, end))
+    Some((kept(points.len(), t), end))
+}
+
+/// Where a cut passes a vertex by less than this part of a piece, that vertex goes too: a
+/// last piece as short as that would point where rounding wills.
+const SHORTEST: f32 = 1.0 / 64.0;
+
+/// How many of `vertices` a hair cut at `t` in 0..=1 keeps (see [`cut`]): those up to the
+/// first that is not before the cut or hardly, and two at least.
+pub fn kept(vertices: usize, t: f32) -> usize {
+    if vertices < 2 || t >= 1.0 {
+        return vertices;
+    }
+    let (piece, inside) = locate(vertices, t);
+    match inside > SHORTEST {
+        true => piece + 2,
+        false => piece.max(1) + 1,
+    }
 }
 
 /// Bézier control points of the curve from its first vertex to `t` in 0..=1, exactly: one
@@ -88,7 +99,7 @@ pub fn bezier_until(points: &[Vec3], t: f32) -> Vec<Vec3> {
     let Some(&first) = points.first().filter(|_| points.len() > 1) else {
         return Vec::new();
     };
-    let (last, inside) = locate(points, t);
+    let (last, inside) = locate(points.len(), t);
     let mut bezier = vec![first];
     for piece in 0..last {
         bezier.extend(&to_bezier(window(points, piece))[1..]);
@@ -216,7 +227,7 @@ mod tests {
         fn a_cut_ends_on_the_curve_and_the_exact_one_is_the_curve(
             points in prop::collection::vec(point(), 2..9), t in 0.0f32..1.0
         ) {
-            let (piece, inside) = locate(&points, t);
+            let (piece, inside) = locate(points.len(), t);
             let on_curve = position(window(&points, piece), inside);
             let (kept, end) = cut(&points, t).unwrap();
             prop_assert_eq!(end, on_curve);

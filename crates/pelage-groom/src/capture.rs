@@ -23,6 +23,8 @@ pub struct Dropped {
     pub without_guides: u64,
     /// They have no length: the scale, or every guide they follow, is 0.
     pub without_length: u64,
+    /// They are cut at the root.
+    pub cut: u64,
 }
 
 impl Dropped {
@@ -30,11 +32,12 @@ impl Dropped {
     pub fn add(&mut self, other: &Dropped) {
         self.without_guides += other.without_guides;
         self.without_length += other.without_length;
+        self.cut += other.cut;
     }
 
     /// All of them.
     pub fn total(&self) -> u64 {
-        self.without_guides + self.without_length
+        self.without_guides + self.without_length + self.cut
     }
 }
 
@@ -45,6 +48,8 @@ pub struct Capture {
     /// Frame of each root at rest.
     pub(crate) frames: Vec<RootFrame>,
     pub(crate) scale: Vec<f32>,
+    /// The part of each hair that stays; empty where the recipe cuts none.
+    pub(crate) cuts: Vec<f32>,
     /// Where each hair's shares start; one more entry than hairs.
     pub(crate) share_starts: Vec<u32>,
     pub(crate) shares: Vec<Share>,
@@ -69,6 +74,11 @@ impl Capture {
     /// Whether no hair was kept.
     pub fn is_empty(&self) -> bool {
         self.roots.is_empty()
+    }
+
+    /// The part of hair number `i` that stays.
+    pub(crate) fn cut(&self, i: usize) -> f32 {
+        self.cuts.get(i).copied().unwrap_or(1.0)
     }
 
     /// Hairs left out, and why.
@@ -146,6 +156,7 @@ impl Plan {
     /// Finds guides, weights and scale, and drops hairs that have no length.
     fn weigh(&self, capture: &mut Capture) {
         capture.scale.clear();
+        capture.cuts.clear();
         capture.shares.clear();
         capture.share_starts.clear();
         capture.share_starts.push(0);
@@ -154,6 +165,11 @@ impl Plan {
             let root = capture.roots[i];
             let f = &self.fields;
             let factor = scale::factor(&f.scale, &f.scale_random, root.uv, self.seed, root.hair);
+            let cut = f.cut.as_ref().map(|cut| cut.at(root.uv).clamp(0.0, 1.0));
+            if cut == Some(0.0) {
+                capture.dropped.cut += 1;
+                continue;
+            }
             let Some(guides) = self
                 .guides
                 .get(root.group as usize)
@@ -197,6 +213,7 @@ impl Plan {
             capture.frames[kept] = frame;
             kept += 1;
             capture.scale.push(factor);
+            capture.cuts.extend(cut);
             capture.share_starts.push(capture.shares.len() as u32);
         }
         capture.roots.truncate(kept);

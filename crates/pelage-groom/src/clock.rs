@@ -15,7 +15,7 @@ pub enum Stage {
     Interpolate,
     /// Frizz.
     Frizz,
-    /// Kink.
+    /// Kink, and the cut.
     Kink,
     /// Colours, opacities and widths along the hair.
     Look,

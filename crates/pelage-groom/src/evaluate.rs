@@ -7,7 +7,7 @@ use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::plan::Plan;
 use crate::stages::roots::Root;
-use crate::stages::{frames, frizz, interpolate, kink, look, scale, world};
+use crate::stages::{cut, frames, frizz, interpolate, kink, look, scale, world};
 use pelage_curves::{FrameScratch, Vec3};
 use pelage_strands::{StrandBuffer, StrandMeta};
 use pelage_surface::{Mesh, RootFrame};
@@ -15,7 +15,9 @@ use pelage_surface::{Mesh, RootFrame};
 /// Arrays that are only used while a chunk is evaluated.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
+    /// Vertices before hairs are cut, and where each hair's start.
     local: Vec<Vec3>,
+    starts: Vec<u32>,
     posed: Vec<RootFrame>,
     noise: [Vec<Vec3>; 2],
     frames: FrameScratch,
@@ -42,24 +44,34 @@ impl Plan {
         clock: &mut Clock,
     ) {
         let started = clock.start();
-        self.lay_out(capture, out);
-        self.interpolate(capture, scratch, out);
+        self.lay_out(capture, &mut scratch.starts, out);
+        self.interpolate(capture, scratch);
         let started = clock.stop(Stage::Interpolate, started);
-        let Scratch { local, noise, .. } = scratch;
+        let Scratch {
+            local,
+            starts,
+            noise,
+            ..
+        } = scratch;
+        let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
         if let Some(fields) = &self.fields.frizz {
             let (hairs, time) = (&capture.frizz, pose.time as f32);
-            frizz::frizz(fields, hairs, time, |i| out.vertices(i), local, noise);
+            frizz::frizz(fields, hairs, time, range, local, noise);
         }
         let started = clock.stop(Stage::Frizz, started);
         if let Some(fields) = &self.fields.kink {
             let (hairs, frames) = (&capture.kinks, &capture.frames);
-            kink::kink(fields, hairs, frames, |i| out.vertices(i), local, noise);
+            kink::kink(fields, hairs, frames, range, local, noise);
+        }
+        for (i, &length) in capture.cuts.iter().enumerate() {
+            cut::cut(length, &mut local[range(i)]);
         }
         let started = clock.stop(Stage::Kink, started);
         self.color(capture, out);
         let started = clock.stop(Stage::Look, started);
         let Scratch {
             local,
+            starts,
             posed,
             frames: side_by_side,
             ..
@@ -73,7 +85,7 @@ impl Plan {
             posed.extend(capture.roots.iter().map(frame));
             posed
         };
-        to_world(frames, local, out);
+        to_world(frames, local, starts, out);
         let started = clock.stop(Stage::World, started);
         if self.normals {
             let points = bytemuck::cast_slice(&out.points);
@@ -84,11 +96,16 @@ impl Plan {
     }
 
     /// Counts, then prefix sums: every array of `out` gets its length here.
-    fn lay_out(&self, capture: &Capture, out: &mut StrandBuffer) {
+    fn lay_out(&self, capture: &Capture, starts: &mut Vec<u32>, out: &mut StrandBuffer) {
         out.clear();
-        let mut vertices = 0;
-        for root in &capture.roots {
-            vertices += self.guides[root.group as usize].segments as usize + 1;
+        starts.clear();
+        starts.push(0);
+        let (mut vertices, mut uncut) = (0, 0);
+        for (i, root) in capture.roots.iter().enumerate() {
+            let all = self.guides[root.group as usize].segments as usize + 1;
+            vertices += cut::kept(all, capture.cut(i));
+            uncut += all;
+            starts.push(uncut as u32);
             out.push_meta(&StrandMeta {
                 hair_id: root.hair,
                 root_uv: root.uv.to_array(),
@@ -112,11 +129,13 @@ impl Plan {
         }
     }
 
-    fn interpolate(&self, capture: &Capture, scratch: &mut Scratch, out: &StrandBuffer) {
-        scratch.local.resize(out.points.len(), Vec3::ZERO);
+    fn interpolate(&self, capture: &Capture, scratch: &mut Scratch) {
+        let Scratch { local, starts, .. } = scratch;
+        let vertices = starts.last().map_or(0, |&end| end as usize);
+        local.resize(vertices, Vec3::ZERO);
         for (i, root) in capture.roots.iter().enumerate() {
             let range = capture.share_starts[i] as usize..capture.share_starts[i + 1] as usize;
-            let hair = &mut scratch.local[out.vertices(i)];
+            let hair = &mut local[starts[i] as usize..starts[i + 1] as usize];
             let guides = &self.guides[root.group as usize].vertices;
             interpolate::interpolate(guides, &capture.shares[range], hair);
             scale::scale(capture.scale[i], hair);
@@ -126,8 +145,11 @@ impl Plan {
     fn color(&self, capture: &Capture, out: &mut StrandBuffer) {
         for (i, one) in capture.looks.iter().enumerate() {
             let range = out.vertices(i);
+            let segments = self.guides[capture.roots[i].group as usize].segments;
             look::along(
                 one,
+                segments,
+                capture.cut(i),
                 &mut out.colors[range.clone()],
                 &mut out.opacities[range.clone()],
                 &mut out.widths[range],
@@ -136,10 +158,11 @@ impl Plan {
     }
 }
 
-fn to_world(frames: &[RootFrame], local: &[Vec3], out: &mut StrandBuffer) {
+fn to_world(frames: &[RootFrame], local: &[Vec3], starts: &[u32], out: &mut StrandBuffer) {
     for (i, frame) in frames.iter().enumerate() {
         let range = out.vertices(i);
+        let hair = &local[starts[i] as usize..][..range.len()];
         let points = bytemuck::cast_slice_mut(&mut out.points[range.clone()]);
-        world::to_world(frame, &local[range], points);
+        world::to_world(frame, hair, points);
     }
 }

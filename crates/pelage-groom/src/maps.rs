@@ -41,6 +41,11 @@ impl ScalarField {
         self.value == 0.0
     }
 
+    /// Whether the recipe says 1, without a map.
+    pub(crate) fn is_one(&self) -> bool {
+        self.value == 1.0 && self.map.is_none()
+    }
+
     /// The value at `uv` as a height of the surface there, with its slopes: differences
     /// over one texel around `uv`. They are continuous, as the slopes of the bilinear
     /// value are not, and lie where the value does, as the document's forward difference

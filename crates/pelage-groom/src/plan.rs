@@ -31,6 +31,8 @@ pub struct Plan {
 pub(crate) struct Fields {
     pub scale: ScalarField,
     pub scale_random: ScalarField,
+    /// `None` where nothing is cut.
+    pub cut: Option<ScalarField>,
     pub frizz: Option<FrizzFields>,
     pub kink: Option<KinkFields>,
     pub color: [ColorField; 2],
@@ -150,7 +152,9 @@ impl Plan {
 impl Fields {
     fn new(recipe: &Recipe, maker: &mut FieldMaker) -> Result<Self, PlanError> {
         let r = recipe;
+        let cut = maker.scalar("cut.length", &r.cut.length)?;
         Ok(Self {
+            cut: Some(cut).filter(|cut| !cut.is_one()),
             scale: maker.scalar("scale.amount", &r.scale.amount)?,
             scale_random: maker.scalar("scale.random", &r.scale.random)?,
             frizz: FrizzFields::new(&r.frizz, maker, r.hair.seed)?,

@@ -32,7 +32,6 @@ const WAITING: &[Waiting] = &[
     },
     waiting("interpolation.space", "interpolation in Frenet space"),
     waiting("interpolation.facing", "weighting by where guides point"),
-    waiting("cut.length", "the cut stage"),
     waiting("color.mutant.percent", "the colour of mutant hair"),
     waiting("color.variation.hue", "the variation of colour"),
     waiting("color.variation.saturation", "the variation of colour"),
@@ -65,8 +64,8 @@ impl Recipe {
     ///
     /// let mut recipe = Recipe::default();
     /// assert!(recipe.unbuilt().is_empty());
-    /// recipe.cut.length = ScalarProperty::new(0.5);
-    /// assert!(recipe.unbuilt().iter().all(|unbuilt| unbuilt.key == "cut.length"));
+    /// recipe.output.skip_threshold = 0.9;
+    /// assert!(recipe.unbuilt().iter().all(|unbuilt| unbuilt.key == "output.skip_threshold"));
     /// ```
     pub fn unbuilt(&self) -> Vec<Unbuilt> {
         let standard = Recipe::default();

@@ -18,10 +18,23 @@ pub struct Look {
     pub width: [f32; 2],
 }
 
-/// Writes the values at the vertices of a hair; the three slices have one length.
+/// Writes the values at the vertices of a hair of `segments` cut at `cut` in 0..=1; the
+/// three slices have one length, that of what is left.
 #[inline]
-pub fn along(look: &Look, colors: &mut [[f32; 3]], opacities: &mut [f32], widths: &mut [f32]) {
-    let step = 1.0 / (colors.len().max(2) - 1) as f32;
+pub fn along(
+    look: &Look,
+    segments: u32,
+    cut: f32,
+    colors: &mut [[f32; 3]],
+    opacities: &mut [f32],
+    widths: &mut [f32],
+) {
+    let step = 1.0 / segments.max(1) as f32;
+    let cut_vertex = if cut < 1.0 {
+        colors.len().saturating_sub(1)
+    } else {
+        usize::MAX
+    };
     let mix = |[root, tip]: [f32; 2], t: f32| root * (1.0 - t) + tip * t;
     for (i, ((color, opacity), width)) in colors
         .iter_mut()
@@ -29,7 +42,11 @@ pub fn along(look: &Look, colors: &mut [[f32; 3]], opacities: &mut [f32], widths
         .zip(widths.iter_mut())
         .enumerate()
     {
-        let t = i as f32 * step;
+        let t = if i == cut_vertex {
+            cut
+        } else {
+            i as f32 * step
+        };
         *color = look.color.at(t);
         *opacity = mix(look.opacity, t);
         *width = mix(look.width, t);
@@ -52,7 +69,7 @@ mod tests {
             };
             let (mut colors, mut opacities, mut widths) =
                 (vec![[0.0; 3]; 6], vec![0.0; 6], vec![0.0; 6]);
-            along(&look, &mut colors, &mut opacities, &mut widths);
+            along(&look, 5, 1.0, &mut colors, &mut opacities, &mut widths);
             for k in 0..3 {
                 assert!((colors[0][k] - root[k]).abs() < 1e-5, "{space:?}");
                 assert!((colors[5][k] - tip[k]).abs() < 1e-5, "{space:?}");

@@ -31,6 +31,7 @@ pub const DISPLACED: &str = "roots.displacement = { value = 0.1, map = 'length.p
 const NOISY: &str = "
     roots.displacement = { value = 0.1, map = 'length.png' }
     frizz = { root = 0.1, tip = { value = 0.3, map = 'length.png' }, frequency = [2, 3, 2] }
+    cut.length = { map = 'length.png' }
     kink = { root = 0.01, tip = 0.05, frequency = [20, { value = 30, map = 'length.png' }, 20] }
 ";
 
@@ -130,6 +131,7 @@ impl Fixture {
         add("density.png", 1, &|x, y, _| {
             if (x / 8 + y / 8) % 2 == 0 { 1.0 } else { 0.2 }
         });
+        add("one.png", 1, &|_, _, _| 1.0);
         add("length.png", 1, &|x, _, _| 0.5 + x as f32 / 128.0);
         add("color.png", 3, &|x, y, k| [x, y, x + y][k] as f32 / 256.0);
         let groom = Groom {

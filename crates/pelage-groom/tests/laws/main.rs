@@ -306,6 +306,45 @@ fn frizz_and_kink_leave_the_root_and_turn_hairs_that_stand_side_by_side_alike() 
 }
 
 #[test]
+fn a_hair_cut_at_c_ends_at_its_point_c_and_keeps_what_is_before() {
+    let whole = collect(&plan(), 0..2000, 2);
+    for (more, part) in [
+        ("cut.length = 0.7", 0.7f32),
+        ("cut.length = 0.5", 0.5),
+        ("cut.length = 0.01", 0.01),
+        ("cut.length = { map = 'length.png' }", f32::NAN),
+        ("cut.length = { value = 1.0, map = 'one.png' }", 1.0),
+    ] {
+        let fixture = Fixture {
+            more,
+            ..Fixture::default()
+        };
+        let hairs = collect(&fixture.plan(), 0..2000, 2);
+        assert_eq!(hairs.len(), whole.len());
+        for i in 0..hairs.len() {
+            let (cut, all) = (hairs.strand_points(i), whole.strand_points(i));
+            let vertices = hairs.vertices(i);
+            // Widths go from 0.02 to 0 along a whole hair: they tell where it ends.
+            let end = 1.0 - hairs.widths[vertices.end - 1] / 0.02;
+            assert!(part.is_nan() || (end - part).abs() < 1e-5, "{more}: {end}");
+            let pieces = all.len() - 1;
+            let piece = ((end * pieces as f32) as usize).min(pieces - 1);
+            let inside = end * pieces as f32 - piece as f32;
+            let expected = catmull_rom::position(catmull_rom::window(all, piece), inside);
+            let last = cut[cut.len() - 1];
+            assert!(last.distance(expected) < 1e-4, "{more}: {last} {expected}");
+            assert_eq!(cut[..cut.len() - 1], all[..cut.len() - 1]);
+            assert!(cut.len() <= piece + 2 && cut.len() >= 2);
+        }
+    }
+    let none = Fixture {
+        more: "cut.length = 0",
+        ..Fixture::default()
+    };
+    assert!(collect(&none.plan(), 0..100, 1).is_empty());
+}
+
+#[test]
 fn animated_frizz_moves_with_time_and_what_does_not_move_stays() {
     let at = |more, time| {
         let plan = Fixture {

@@ -145,9 +145,11 @@ impl Job {
         ));
         if report.dropped.total() > 0 {
             say.note(format_args!(
-                "{} hairs were left out: {} have no length, {} no guide in their group",
+                "{} hairs were left out: {} have no length, {} are cut at the root, \
+                {} have no guide in their group",
                 grouped(report.dropped.total()),
                 grouped(report.dropped.without_length),
+                grouped(report.dropped.cut),
                 grouped(report.dropped.without_guides),
             ));
         }

@@ -23,6 +23,8 @@ pub struct Stats {
     pub dropped_without_guides: u64,
     /// Hairs left out because they have no length.
     pub dropped_without_length: u64,
+    /// Hairs left out because they are cut at the root.
+    pub dropped_cut: u64,
     /// Guides.
     pub guides: usize,
     /// Triangles of the surface.
@@ -66,6 +68,7 @@ impl Stats {
             frames,
             dropped_without_guides: report.dropped.without_guides,
             dropped_without_length: report.dropped.without_length,
+            dropped_cut: report.dropped.cut,
             guides: loaded.plan.guide_count(),
             triangles: rest.triangles().len(),
             degenerate_triangles: rest.degenerate_triangles(),
