@@ -188,7 +188,8 @@ impl Plan {
 
     fn look(&self, root: &Root) -> Look {
         let f = &self.fields;
-        let [from, to] = [0, 1].map(|k| f.color[k].at(root.uv));
+        let common = [0, 1].map(|k| f.color[k].at(root.uv));
+        let [from, to] = f.tint.apply(common, root.uv, self.seed, root.hair);
         Look {
             color: ColorMix::new(f.color_space, from, to),
             opacity: [0, 1].map(|k| f.opacity[k].at(root.uv).clamp(0.0, 1.0)),

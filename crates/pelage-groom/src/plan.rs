@@ -7,6 +7,7 @@ use crate::guide::{self, Guide};
 use crate::guide_set::GuideSet;
 use crate::maps::{ColorField, FieldMaker, ScalarField};
 use crate::recipe::{self, GuideSource, Method, Recipe};
+use crate::stages::tint::Tint;
 use crate::{PlanError, RootPlan, grow, root_plan};
 use pelage_surface::Mesh;
 
@@ -31,6 +32,7 @@ pub(crate) struct Fields {
     pub scale_random: ScalarField,
     pub color: [ColorField; 2],
     pub color_space: ColorSpace,
+    pub tint: Tint,
     pub opacity: [ScalarField; 2],
     pub width: [ScalarField; 2],
 }
@@ -158,6 +160,7 @@ impl Fields {
                 recipe::ColorSpace::Oklab => ColorSpace::Oklab,
                 recipe::ColorSpace::Rgb => ColorSpace::Rgb,
             },
+            tint: tint(recipe, maker)?,
             opacity: [
                 maker.scalar("opacity.root", &r.opacity.root)?,
                 maker.scalar("opacity.tip", &r.opacity.tip)?,
@@ -168,6 +171,17 @@ impl Fields {
             ],
         })
     }
+}
+
+fn tint(recipe: &Recipe, maker: &mut FieldMaker) -> Result<Tint, PlanError> {
+    let (mutant, variation) = (&recipe.color.mutant, &recipe.color.variation);
+    Ok(Tint {
+        mutant_percent: maker.scalar("color.mutant.percent", &mutant.percent)?,
+        mutant_color: maker.color("color.mutant.color", &mutant.color)?,
+        hue: maker.scalar("color.variation.hue", &variation.hue)?,
+        saturation: maker.scalar("color.variation.saturation", &variation.saturation)?,
+        value: maker.scalar("color.variation.value", &variation.value)?,
+    })
 }
 
 /// Most segments of a hair: what the formats that count them in 16 bits can hold.

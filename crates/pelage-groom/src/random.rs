@@ -15,6 +15,14 @@ pub enum Channel {
     GuideRoot = 2,
     /// Phase of a grown guide's curl.
     GuideCurl = 3,
+    /// Whether a hair is a mutant.
+    Mutant = 8,
+    /// `color.variation.hue`.
+    Hue = 9,
+    /// `color.variation.saturation`.
+    Saturation = 10,
+    /// `color.variation.value`.
+    Value = 11,
 }
 
 /// A number in 0..1 for hair `hair` of the groom seeded `seed`.

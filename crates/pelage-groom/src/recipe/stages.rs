@@ -37,10 +37,6 @@ const WAITING: &[Waiting] = &[
     waiting("frizz.tip", "the frizz stage"),
     waiting("kink.root", "the kink stage"),
     waiting("kink.tip", "the kink stage"),
-    waiting("color.mutant.percent", "the colour of mutant hair"),
-    waiting("color.variation.hue", "the variation of colour"),
-    waiting("color.variation.saturation", "the variation of colour"),
-    waiting("color.variation.value", "the variation of colour"),
     waiting("strand.count", "the strand stage"),
     waiting("output.skip_threshold", "the dropping of unneeded vertices"),
 ];

@@ -8,5 +8,6 @@ pub mod interpolate;
 pub mod look;
 pub mod roots;
 pub mod scale;
+pub mod tint;
 pub mod weights;
 pub mod world;

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What to make the groom of.
-pub struct Fixture {
+pub struct Fixture<'a> {
     /// Hairs of the recipe.
     pub count: u64,
     /// Rings of the ball, twice as many columns.
@@ -21,14 +21,14 @@ pub struct Fixture {
     /// Texture turned by a quarter.
     pub turned_uvs: bool,
     /// More lines of the recipe.
-    pub more: &'static str,
+    pub more: &'a str,
 }
 
 /// Displaced roots.
 pub const DISPLACED: &str = "roots.displacement = { value = 0.1, map = 'length.png' }";
 
 /// Every kind of roots.
-pub fn kinds() -> impl Iterator<Item = Fixture> {
+pub fn kinds() -> impl Iterator<Item = Fixture<'static>> {
     let patterns = ["roots.pattern = 'random'", "roots.pattern = 'blue-noise'"];
     ["", DISPLACED, patterns[0], patterns[1]]
         .into_iter()
@@ -38,7 +38,7 @@ pub fn kinds() -> impl Iterator<Item = Fixture> {
         })
 }
 
-impl Default for Fixture {
+impl Default for Fixture<'_> {
     fn default() -> Self {
         Self {
             count: 5000,
@@ -50,7 +50,7 @@ impl Default for Fixture {
     }
 }
 
-impl Fixture {
+impl Fixture<'_> {
     /// The ball, with a seam along a meridian.
     pub fn mesh(&self) -> PolygonMesh {
         let (rows, columns) = (self.rings, self.rings * 2);
