@@ -22,6 +22,7 @@ mod in_order;
 mod locator;
 mod maps;
 mod missing_tiles;
+mod neighbors;
 mod plan;
 pub mod random;
 pub mod recipe;

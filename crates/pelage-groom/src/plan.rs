@@ -6,7 +6,8 @@ use crate::groups::Groups;
 use crate::guide::{self, Guide};
 use crate::guide_set::GuideSet;
 use crate::maps::{ColorField, FieldMaker, ScalarField};
-use crate::recipe::{self, GuideSource, Method, Recipe};
+use crate::neighbors::Sharing;
+use crate::recipe::{self, GuideSource, Recipe};
 use crate::stages::tint::Tint;
 use crate::{PlanError, RootPlan, grow, root_plan};
 use pelage_surface::Mesh;
@@ -16,8 +17,7 @@ use pelage_surface::Mesh;
 pub struct Plan {
     pub(crate) roots: RootPlan,
     pub(crate) guides: Vec<GuideSet>,
-    pub(crate) method: Method,
-    pub(crate) wanted: usize,
+    pub(crate) sharing: Sharing,
     pub(crate) fields: Fields,
     pub(crate) seed: u64,
     pub(crate) normals: bool,
@@ -64,8 +64,7 @@ impl Plan {
         let mut plan = Self {
             roots,
             guides: Vec::new(),
-            method: recipe.interpolation.method,
-            wanted: recipe.interpolation.guides as usize,
+            sharing: Sharing::new(&recipe.interpolation),
             fields,
             seed: recipe.hair.seed,
             normals: recipe.output.normals,
@@ -85,10 +84,7 @@ impl Plan {
         if self.count() > 0 && all.is_empty() {
             return Err(PlanError::NoGuides);
         }
-        let nearest = match self.method {
-            Method::Nearest => 1,
-            _ => self.wanted + 1,
-        };
+        let nearest = self.sharing.nearest();
         let group_of: Vec<u32> = all.iter().map(|g| groups.at(rest.uv(&g.root))).collect();
         for (index, group) in groups.all().iter().enumerate() {
             let mine: Vec<&Guide> = all

@@ -31,7 +31,6 @@ const WAITING: &[Waiting] = &[
         built: &["\"nearest\""],
     },
     waiting("interpolation.space", "interpolation in Frenet space"),
-    waiting("interpolation.facing", "weighting by where guides point"),
     waiting("cut.length", "the cut stage"),
     waiting("frizz.root", "the frizz stage"),
     waiting("frizz.tip", "the frizz stage"),

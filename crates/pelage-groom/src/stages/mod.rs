@@ -3,6 +3,7 @@
 //! A stage is a pure function over slices: inputs first, outputs last. Its header says
 //! what it does, where that comes from, and the space and unit of its arrays.
 
+pub mod facing;
 pub mod frames;
 pub mod interpolate;
 pub mod look;

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod fixture;
+mod interpolation;
 mod look;
 
 use fixture::{Fixture, collect, kinds, moved, strands};
