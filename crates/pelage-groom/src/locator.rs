@@ -34,6 +34,12 @@ impl Near {
         (square.to_bits() as u64) << 32 | guide as u64
     }
 
+    /// What guides are ordered by: distance, then index.
+    #[inline]
+    pub(crate) fn order(&self) -> u64 {
+        Self::key(self.guide, self.square)
+    }
+
     #[inline(always)]
     fn of_key(key: u64) -> Self {
         Self {
@@ -246,12 +252,11 @@ fn nearest_of_many(list: &[Candidate], point: Vec3, nearest: usize, found: &mut 
         guide: candidate.guide,
         square: candidate.root.distance_squared(point),
     }));
-    let key = |near: &Near| Near::key(near.guide, near.square);
     if nearest < found.len() {
-        found.select_nth_unstable_by_key(nearest, key);
+        found.select_nth_unstable_by_key(nearest, Near::order);
         found.truncate(nearest);
     }
-    found.sort_unstable_by_key(key);
+    found.sort_unstable_by_key(Near::order);
 }
 
 /// Half the mean distance between guides on the surface: a dozen candidates a cell.

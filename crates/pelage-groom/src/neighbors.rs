@@ -8,6 +8,7 @@ use crate::guide_set::GuideSet;
 use crate::locator::Near;
 use crate::recipe::{Facing, Interpolation, Method};
 use crate::stages::facing::{self, Faced};
+use crate::stages::natural::{self, Cell, Site};
 use crate::stages::weights::inverse_distance;
 use pelage_surface::RootFrame;
 
@@ -26,6 +27,8 @@ pub(crate) struct Sharing {
 pub(crate) struct Neighbors {
     near: Vec<Near>,
     faced: Vec<Faced>,
+    sites: Vec<Site>,
+    cell: Cell,
     guides: Vec<u32>,
     weights: Vec<f32>,
 }
@@ -33,10 +36,15 @@ pub(crate) struct Neighbors {
 impl Neighbors {
     /// Guides with their weights, in the order in which they are to be summed.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (u32, f32)> {
-        self.guides
-            .iter()
-            .copied()
-            .zip(self.weights.iter().copied())
+        let guides = self.guides.iter().copied();
+        guides.zip(self.weights.iter().copied())
+    }
+
+    /// One guide alone.
+    fn one(&mut self, guide: Option<u32>) {
+        self.guides.extend(guide);
+        self.weights.clear();
+        self.weights.push(1.0);
     }
 }
 
@@ -52,17 +60,19 @@ impl Sharing {
         }
     }
 
-    /// How many guides a locator has to find for this.
+    /// How many guides a locator has to find for this: mostly enough, so that all need
+    /// not be looked at.
     pub(crate) fn nearest(&self) -> usize {
-        let enough = self.enough();
-        match self.facing {
-            None => enough,
+        match (self.method, self.facing) {
+            (Method::NaturalNeighbor, None) => natural::ORDER,
+            (Method::NaturalNeighbor, Some(_)) => 2 * natural::ORDER,
+            (_, None) => self.enough(),
             // Some point away and most lean, so that the nearest are not the first.
-            Some(_) => enough.saturating_mul(4),
+            (_, Some(_)) => self.enough().saturating_mul(4),
         }
     }
 
-    /// How many guides have to be known to tell the weights.
+    /// How many guides have to be known to tell weights by distance.
     fn enough(&self) -> usize {
         match self.method {
             Method::Nearest => 1,
@@ -74,49 +84,50 @@ impl Sharing {
     /// guide.
     pub(crate) fn find(&self, guides: &GuideSet, root: &RootFrame, found: &mut Neighbors) {
         guides.locator.query(root.position, &mut found.near);
-        if self.facing.is_some() {
-            self.face(guides, root, found);
-        }
-        let Neighbors {
-            near,
-            faced,
-            guides,
-            weights,
-        } = found;
-        guides.clear();
-        match self.facing {
-            None => guides.extend(near.iter().map(|n| n.guide)),
-            Some(_) => guides.extend(faced.iter().map(|f| f.guide)),
-        }
+        found.guides.clear();
         match (self.method, self.facing) {
-            (Method::Nearest, _) => {
-                weights.clear();
-                weights.push(1.0);
+            (Method::NaturalNeighbor, _) => self.natural(guides, root, found),
+            (_, Some(exponent)) => self.faced(guides, root, exponent, found),
+            (Method::Nearest, None) => found.one(found.near.first().map(|n| n.guide)),
+            (Method::InverseDistance, None) => {
+                found.guides.extend(found.near.iter().map(|n| n.guide));
+                inverse_distance(&found.near, self.wanted, &mut found.weights);
             }
-            (_, None) => inverse_distance(near, self.wanted, weights),
-            (_, Some(exponent)) => facing::weigh(faced, self.wanted, exponent, weights),
         }
     }
 
-    /// Fills `found.faced` with the guides of the smallest D (see
-    /// [`facing`](crate::stages::facing)), from `found.near`, those nearest to the root.
-    fn face(&self, guides: &GuideSet, root: &RootFrame, found: &mut Neighbors) {
-        let Neighbors { near, faced, .. } = found;
-        faced.clear();
-        if let Some(alone) = at_the_root(guides, root, near) {
-            faced.push(alone);
-            return;
+    /// S · T_k of a guide, or 1 where guides need not face the root.
+    fn facing(&self, guides: &GuideSet, root: &RootFrame, guide: u32) -> f32 {
+        match self.facing {
+            Some(_) => guides.directions[guide as usize].dot(root.normal),
+            None => 1.0,
         }
-        let enough = self.enough();
-        let seen =
-            |near: Near| Faced::new(near, guides.directions[near.guide as usize], root.normal);
+    }
+
+    /// The guide that stands where the root does, if one does: one that faces it before
+    /// one that does not.
+    fn at_the_root(&self, guides: &GuideSet, root: &RootFrame, near: &[Near]) -> Option<u32> {
+        let here = || near.iter().take_while(|n| n.square == 0.0);
+        let faces = |n: &&Near| self.facing(guides, root, n.guide) > 0.0;
+        let found = here().find(faces).or_else(|| here().next());
+        found.map(|n| n.guide)
+    }
+
+    /// The guides of the smallest D (see [`facing`](crate::stages::facing)).
+    fn faced(&self, guides: &GuideSet, root: &RootFrame, exponent: f32, found: &mut Neighbors) {
+        let alone = self.at_the_root(guides, root, &found.near);
+        if alone.is_some() {
+            return found.one(alone);
+        }
+        let (near, faced, enough) = (&found.near, &mut found.faced, self.enough());
+        let seen = |near: Near| Faced::new(near, self.facing(guides, root, near.guide));
+        faced.clear();
         faced.extend(near.iter().filter_map(|&n| seen(n)));
         faced.sort_unstable_by(Faced::order);
         // D is at least d, so no guide beyond the last one found comes before these.
         let last = near.last().map_or(0.0, |n| n.square);
-        let sure =
-            near.len() == guides.len() || faced.get(enough - 1).is_some_and(|f| f.apart < last);
-        if !sure {
+        let before_last = faced.get(enough - 1).is_some_and(|f| f.apart < last);
+        if near.len() < guides.len() && !before_last {
             faced.clear();
             faced.extend(guides.all(root.position).filter_map(seen));
             if faced.len() > enough {
@@ -126,19 +137,59 @@ impl Sharing {
             faced.sort_unstable_by(Faced::order);
         }
         if faced.is_empty() {
-            faced.extend(near.iter().map(|&n| Faced::by_distance(n)));
+            faced.extend(near.iter().filter_map(|&n| Faced::new(n, 1.0)));
         }
         faced.truncate(enough);
+        match self.method {
+            Method::Nearest => found.one(found.faced.first().map(|f| f.guide)),
+            _ => {
+                found.guides.extend(faced.iter().map(|f| f.guide));
+                facing::weigh(faced, self.wanted, exponent, &mut found.weights);
+            }
+        }
     }
-}
 
-/// The guide that stands where the root does, if one does: one that faces it before one
-/// that does not.
-fn at_the_root(guides: &GuideSet, root: &RootFrame, near: &[Near]) -> Option<Faced> {
-    let here = || near.iter().take_while(|n| n.square == 0.0);
-    let faces = |n: &&Near| guides.directions[n.guide as usize].dot(root.normal) > 0.0;
-    let found = here().find(faces).or_else(|| here().next())?;
-    Some(Faced::by_distance(*found))
+    /// Sibson's weights (see [`natural`](crate::stages::natural)).
+    fn natural(&self, guides: &GuideSet, root: &RootFrame, found: &mut Neighbors) {
+        let alone = self.at_the_root(guides, root, &found.near);
+        if alone.is_some() {
+            return found.one(alone);
+        }
+        let Neighbors {
+            near, sites, cell, ..
+        } = found;
+        let place = |near: &Near, recede| {
+            let position = guides.frames[near.guide as usize].position;
+            Site::new(near.guide, position, root, recede)
+        };
+        let seen = |near: &Near| {
+            let facing = self.facing(guides, root, near.guide);
+            place(near, facing::recede(facing))
+        };
+        let far = near.iter().take(natural::ORDER).next_back();
+        let domain = natural::DOMAIN * far.map_or(0.0, |n| n.square as f64).sqrt();
+        sites.clear();
+        sites.extend(near.iter().filter_map(seen));
+        let mut reach = cell.make(sites, domain);
+        // A little less than the last, whose distance is rounded otherwise than a site's.
+        let last = near.last().map_or(0.0, |n| n.square.sqrt()) as f64 * 0.9999;
+        if near.len() < guides.len() && reach >= last {
+            near.clear();
+            let within = (reach * reach) as f32 * 1.001;
+            near.extend(guides.all(root.position).filter(|n| n.square <= within));
+            near.sort_unstable_by_key(Near::order);
+            sites.clear();
+            sites.extend(near.iter().filter_map(seen));
+            reach = cell.make(sites, domain);
+        }
+        if sites.is_empty() {
+            sites.extend(near.iter().filter_map(|n| place(n, 1.0)));
+            reach = cell.make(sites, domain);
+        }
+        sites.truncate(sites.partition_point(|s| s.distance <= reach));
+        cell.share(sites, &mut found.weights);
+        found.guides.extend(sites.iter().map(|s| s.guide));
+    }
 }
 
 #[cfg(test)]

@@ -34,7 +34,11 @@ fn place(u: f32, v: f32) -> SurfacePoint {
 
 /// A hundred guides on the square that point anywhere above it, and some below.
 fn guides(mesh: &Mesh, sharing: &Sharing) -> GuideSet {
-    let guides: Vec<Guide> = (0..100)
+    some_guides(mesh, sharing, 100)
+}
+
+fn some_guides(mesh: &Mesh, sharing: &Sharing, count: u64) -> GuideSet {
+    let guides: Vec<Guide> = (0..count)
         .map(|i| {
             let [u, v, x, y, z] = [0, 1, 2, 3, 4].map(|k| random(i * 5 + k));
             let along = Vec3::new(x * 2.0 - 1.0, y * 2.0 - 1.0, z * 1.3 - 0.3);
@@ -74,6 +78,8 @@ fn ways() -> Vec<Sharing> {
         with(distance, Some(0.0)),
         with(distance, Some(2.0)),
         with(distance, Some(3.5)),
+        with(Method::NaturalNeighbor, None),
+        with(Method::NaturalNeighbor, Some(2.0)),
     ]
 }
 
@@ -103,7 +109,7 @@ fn walk(find: &dyn Fn(Vec3) -> Vec<f32>, [start, end]: [Vec3; 2], steps: u32) ->
 
 #[test]
 fn weights_do_not_jump_along_a_line_of_roots_where_guides_come_and_go() {
-    const STEPS: u32 = 4000;
+    const STEPS: u32 = 2000;
     let mesh = square();
     for sharing in ways() {
         let guides = guides(&mesh, &sharing);
@@ -137,10 +143,10 @@ fn the_few_guides_looked_at_give_what_all_guides_give() {
         let few = guides(&mesh, &sharing);
         let mut all = few.clone();
         let roots = all.frames.iter().map(|f| f.position).collect();
-        all.locator = crate::Locator::new(&mesh, roots, 100);
-        if sharing.facing.is_none() {
+        if sharing.nearest() <= 4 {
             continue;
         }
+        all.locator = crate::Locator::new(&mesh, roots, 100);
         for i in 0..2000 {
             let at = root(Vec3::new(random(i), random(i + 7000), 0.0));
             let [a, b] = [&few, &all].map(|guides| weights(&sharing, guides, &at));
@@ -158,5 +164,43 @@ fn a_root_on_a_guide_gives_that_guide() {
             let found = weights(&sharing, &guides, &root(guides.frames[guide].position));
             assert_eq!(found[guide], 1.0, "{sharing:?}, guide {guide}");
         }
+    }
+}
+
+#[test]
+fn any_number_of_guides_shares_a_hair_completely() {
+    let mesh = square();
+    for sharing in ways() {
+        for count in (1..12).chain([24, 25, 48, 49]) {
+            let guides = some_guides(&mesh, &sharing, count);
+            for i in 0..200 {
+                let at = root(Vec3::new(random(i), random(i + 7000), 0.0));
+                let found = weights(&sharing, &guides, &at);
+                let sum: f32 = found.iter().sum();
+                assert!(
+                    (sum - 1.0).abs() < 1e-5,
+                    "{sharing:?}, {count} guides: {sum}"
+                );
+                assert!(found.iter().all(|w| (0.0..=1.0).contains(w)));
+            }
+        }
+    }
+}
+
+#[test]
+fn natural_neighbors_give_the_root_back_as_the_mean_of_their_places() {
+    let mesh = square();
+    let sharing = Sharing {
+        method: Method::NaturalNeighbor,
+        wanted: 3,
+        facing: None,
+    };
+    let guides = guides(&mesh, &sharing);
+    for i in 0..2000 {
+        let at = Vec3::new(random(i), random(i + 7000), 0.0) * 0.6 + 0.2 * (Vec3::X + Vec3::Y);
+        let found = weights(&sharing, &guides, &RootFrame::new(at, Vec3::X, Vec3::Z));
+        let places = guides.frames.iter().zip(&found);
+        let mean: Vec3 = places.map(|(frame, &w)| frame.position * w).sum();
+        assert!(mean.distance(at) < 1e-5, "{at} {mean}");
     }
 }

@@ -10,26 +10,15 @@ struct Waiting {
     key: &'static str,
     /// What is not there, as a sentence begins.
     stage: &'static str,
-    /// Values other than the default that are there all the same.
-    built: &'static [&'static str],
 }
 
 const fn waiting(key: &'static str, stage: &'static str) -> Waiting {
-    Waiting {
-        key,
-        stage,
-        built: &[],
-    }
+    Waiting { key, stage }
 }
 
 /// Every key that switches a missing stage on. Keys that do nothing alone, such
 /// as `frizz.frequency` while both amounts are 0, need no line.
 const WAITING: &[Waiting] = &[
-    Waiting {
-        key: "interpolation.method",
-        stage: "natural-neighbor interpolation",
-        built: &["\"nearest\""],
-    },
     waiting("interpolation.space", "interpolation in Frenet space"),
     waiting("cut.length", "the cut stage"),
     waiting("frizz.root", "the frizz stage"),
@@ -96,8 +85,7 @@ fn unbuilt(leaf: &Leaf<'_>, default: &Leaf<'_>) -> Option<String> {
     }
     let waiting = WAITING.iter().find(|waiting| waiting.key == leaf.key)?;
     let text = leaf.text.as_deref().unwrap_or_default();
-    let same = text == neutral || (leaf.zero && default.zero);
-    if same || waiting.built.contains(&text) {
+    if text == neutral || (leaf.zero && default.zero) {
         return None;
     }
     let stage = waiting.stage;

@@ -6,7 +6,8 @@
 //! sides of an ear do not mix.
 //!
 //! The equation weighs all guides there are; a hair takes few. A guide at distance d is
-//! taken to be as far as D = d / (S · T_k): infinitely far when it begins to point away.
+//! taken to be as far as D = d / min(1, 10 S · T_k): one that lies within 6° of the
+//! surface recedes, to infinity when it begins to point away (see [`recede`]).
 //! The n + 1 of the smallest D are taken, and eq. 49 is multiplied by (1 - D / R)², R
 //! being the largest of them: the window that document 004 (2.2.4) puts on distances. D
 //! is continuous in the root, so is R, and a guide comes and goes with weight 0. Where n
@@ -17,7 +18,18 @@
 //! turns away, weights jump to those by distance alone, as the errata ask.
 
 use crate::locator::Near;
-use pelage_curves::Vec3;
+
+/// S · T_k below which a guide recedes: small, so that a coat that leans is shaped by the
+/// guides that are nearest; not so small that a guide comes and goes all at once.
+const GRAZING: f32 = 0.1;
+
+/// The factor of a guide's squared distance that its S · T_k, `facing`, makes: 1 for most,
+/// rising to infinity where it begins to point away.
+#[inline]
+pub fn recede(facing: f32) -> f32 {
+    let seen = (facing / GRAZING).clamp(0.0, 1.0);
+    1.0 / (seen * seen)
+}
 
 /// A guide as a root sees it that has a normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,28 +45,17 @@ pub struct Faced {
 }
 
 impl Faced {
-    /// The guide `near` that leaves its root along `direction`, seen from a root with
-    /// `normal`; `None` where it points away.
+    /// The guide `near` with its S · T_k, or 1 for distance alone; `None` where it points
+    /// away.
     #[inline]
-    pub fn new(near: Near, direction: Vec3, normal: Vec3) -> Option<Self> {
-        let facing = normal.dot(direction);
-        let apart = near.square / (facing * facing);
+    pub fn new(near: Near, facing: f32) -> Option<Self> {
+        let apart = near.square * recede(facing);
         (facing > 0.0 && apart < f32::INFINITY).then_some(Self {
             guide: near.guide,
             square: near.square,
             facing,
             apart,
         })
-    }
-
-    /// The guide `near`, whatever its direction.
-    pub fn by_distance(near: Near) -> Self {
-        Self {
-            guide: near.guide,
-            square: near.square,
-            facing: 1.0,
-            apart: near.square,
-        }
     }
 
     /// Orders by D, then by index.
@@ -133,12 +134,10 @@ mod tests {
     #[test]
     fn a_guide_that_points_away_is_not_seen() {
         let near = upright(&[1.0])[0];
-        assert_eq!(Faced::new(near, -Vec3::Z, Vec3::Z), None);
-        assert_eq!(Faced::new(near, Vec3::X, Vec3::Z), None);
-        assert_eq!(
-            Faced::new(near, Vec3::Z, Vec3::Z),
-            Some(Faced::by_distance(near))
-        );
+        assert_eq!(Faced::new(near, -1.0), None);
+        assert_eq!(Faced::new(near, 0.0), None);
+        assert!(Faced::new(near, 0.5).is_some_and(|f| f.apart == 1.0));
+        assert!(Faced::new(near, GRAZING / 2.0).is_some_and(|f| f.apart == 4.0));
     }
 
     #[test]
@@ -147,7 +146,7 @@ mod tests {
             guide,
             square,
             facing,
-            apart: square / (facing * facing),
+            apart: square * recede(facing),
         };
         let mut weights = Vec::new();
         for exponent in [0.0, 1.0, 2.0, 3.5] {
@@ -170,7 +169,7 @@ mod tests {
         ) {
             distances.sort_by(f32::total_cmp);
             let near = upright(&distances);
-            let faced: Vec<_> = near.iter().map(|&n| Faced::by_distance(n)).collect();
+            let faced: Vec<_> = near.iter().filter_map(|&n| Faced::new(n, 1.0)).collect();
             let (mut found, mut expected) = (Vec::new(), Vec::new());
             weigh(&faced, 3, 2.0, &mut found);
             inverse_distance(&near, 3, &mut expected);
@@ -189,7 +188,7 @@ mod tests {
                 .enumerate()
                 .filter_map(|(i, &(square, facing))| {
                     let near = Near { guide: i as u32, square };
-                    Faced::new(near, Vec3::Z * facing, Vec3::Z)
+                    Faced::new(near, facing)
                 })
                 .collect();
             prop_assume!(!faced.is_empty());

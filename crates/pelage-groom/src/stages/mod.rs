@@ -7,6 +7,7 @@ pub mod facing;
 pub mod frames;
 pub mod interpolate;
 pub mod look;
+pub mod natural;
 pub mod roots;
 pub mod scale;
 pub mod tint;

@@ -27,10 +27,15 @@ pub struct Fixture<'a> {
 /// Displaced roots.
 pub const DISPLACED: &str = "roots.displacement = { value = 0.1, map = 'length.png' }";
 
-/// Every kind of roots.
+/// What hairs can take from their guides and from chance.
+const SHARED: &str = "interpolation = { method = 'natural-neighbor', facing = true }
+    color.mutant = { percent = 20.0 }
+    color.variation = { hue = 20.0, saturation = 0.1, value = 0.1 }";
+
+/// Every kind of roots, and of hairs.
 pub fn kinds() -> impl Iterator<Item = Fixture<'static>> {
     let patterns = ["roots.pattern = 'random'", "roots.pattern = 'blue-noise'"];
-    ["", DISPLACED, patterns[0], patterns[1]]
+    ["", DISPLACED, patterns[0], patterns[1], SHARED]
         .into_iter()
         .map(|more| Fixture {
             more,
