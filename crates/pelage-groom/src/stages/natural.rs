@@ -126,10 +126,13 @@ impl Cell {
     /// Writes each site's share of the cell to `weights`: areas over their sum. Needs
     /// [`make`](Self::make) with the same sites.
     pub fn share(&mut self, sites: &[Site], weights: &mut Vec<f32>) {
-        weights.clear();
         let whole = area(&self.corners);
-        let shares = (0..sites.len()).map(|k| self.part(sites, k) / whole);
-        weights.extend(shares.map(|share| share as f32));
+        weights.clear();
+        weights.resize(sites.len(), 1.0);
+        // Farthest first: most of them have no part, and need not be asked again.
+        for k in (0..sites.len()).rev() {
+            weights[k] = (self.part(sites, k, weights) / whole) as f32;
+        }
         let sum: f32 = weights.iter().sum();
         if sum > 0.0 && sum.is_finite() {
             weights.iter_mut().for_each(|w| *w /= sum);
@@ -140,8 +143,9 @@ impl Cell {
         }
     }
 
-    /// Area of the cell where site `k` has the least power; a tie goes to the first.
-    fn part(&mut self, sites: &[Site], k: usize) -> f64 {
+    /// Area of the cell where site `k` has the least power; a tie goes to the first. Sites
+    /// whose weight is known to be 0 are nowhere least and are passed over.
+    fn part(&mut self, sites: &[Site], k: usize, weights: &[f32]) -> f64 {
         let Self {
             corners,
             part,
@@ -151,6 +155,9 @@ impl Cell {
         part.clone_from(corners);
         let mine = sites[k];
         for (j, other) in sites.iter().enumerate() {
+            if j == k || weights[j] == 0.0 {
+                continue;
+            }
             let (across, offset) = (other.at - mine.at, other.power - mine.power);
             if j < k && across == DVec2::ZERO && offset == 0.0 {
                 return 0.0;
