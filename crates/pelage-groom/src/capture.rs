@@ -4,15 +4,14 @@
 
 use crate::clock::{Clock, Stage};
 use crate::color::ColorMix;
-use crate::locator::Near;
+use crate::neighbors::Neighbors;
 use crate::plan::{Fields, Plan};
-use crate::recipe::Method;
 use crate::stages::frizz::Frizz;
 use crate::stages::kink::Kink;
 use crate::stages::look::Look;
 use crate::stages::roots::{Root, root};
 use crate::stages::scale;
-use crate::stages::weights::{Share, inverse_distance, turn};
+use crate::stages::weights::{Share, turn};
 use pelage_surface::{RootFrame, SurfacePoint};
 use std::ops::Range;
 
@@ -61,8 +60,7 @@ pub struct Capture {
     dropped: Dropped,
     hairs: Vec<u64>,
     places: Vec<SurfacePoint>,
-    near: Vec<Near>,
-    weights: Vec<f32>,
+    neighbors: Neighbors,
 }
 
 impl Capture {
@@ -178,28 +176,21 @@ impl Plan {
                 capture.dropped.without_guides += 1;
                 continue;
             };
-            guides.locator.query(root.rest, &mut capture.near);
-            match self.method {
-                Method::Nearest => {
-                    capture.weights.clear();
-                    capture.weights.push(1.0);
-                }
-                _ => inverse_distance(&capture.near, self.wanted, &mut capture.weights),
-            }
             let frame = capture.frames[i];
+            self.sharing.find(guides, &frame, &mut capture.neighbors);
             let first = capture.shares.len();
             let mut length = 0.0;
-            for (near, &weight) in capture.near.iter().zip(&capture.weights) {
+            for (guide, weight) in capture.neighbors.iter() {
                 if weight > 0.0 {
-                    let (c, s) = turn(&guides.frames[near.guide as usize], &frame);
+                    let (c, s) = turn(&guides.frames[guide as usize], &frame);
                     let (cosine, sine) = (weight * c, weight * s);
                     capture.shares.push(Share {
-                        guide: near.guide,
+                        guide,
                         weight,
                         cosine,
                         sine,
                     });
-                    length += weight * guides.lengths[near.guide as usize];
+                    length += weight * guides.lengths[guide as usize];
                 }
             }
             // A NaN has no length either.
@@ -222,7 +213,8 @@ impl Plan {
 
     fn look(&self, root: &Root) -> Look {
         let f = &self.fields;
-        let [from, to] = [0, 1].map(|k| f.color[k].at(root.uv));
+        let common = [0, 1].map(|k| f.color[k].at(root.uv));
+        let [from, to] = f.tint.apply(common, root.uv, self.seed, root.hair);
         Look {
             color: ColorMix::new(f.color_space, from, to),
             opacity: [0, 1].map(|k| f.opacity[k].at(root.uv).clamp(0.0, 1.0)),

@@ -42,6 +42,15 @@ impl Guide {
         }
     }
 
+    /// Unit vector in the space of the mesh at rest along which the guide leaves its
+    /// root, its vertices as they came: the tangent of the Catmull-Rom curve with doubled
+    /// ends. The normal for a guide without length.
+    pub fn direction(&self) -> Vec3 {
+        let next = self.local.iter().find(|&&v| v != Vec3::ZERO);
+        next.and_then(|&v| self.frame.vector(v).try_normalize())
+            .unwrap_or(self.frame.normal)
+    }
+
     /// Length of the polygon through the vertices.
     pub fn length(&self) -> f32 {
         self.local.windows(2).map(|w| w[0].distance(w[1])).sum()

@@ -1,7 +1,7 @@
 //! The guides of one interpolation group, ready to be mixed.
 
 use crate::guide::Guide;
-use crate::locator::Locator;
+use crate::locator::{Locator, Near};
 use pelage_curves::Vec3;
 use pelage_surface::{Mesh, RootFrame};
 
@@ -14,6 +14,8 @@ pub(crate) struct GuideSet {
     pub vertices: Vec<Vec3>,
     /// Frame of each guide's root at rest.
     pub frames: Vec<RootFrame>,
+    /// Direction at rest in which each guide leaves its root; unit vectors.
+    pub directions: Vec<Vec3>,
     /// Length of each guide.
     pub lengths: Vec<f32>,
     /// Finds the guides nearest to a root.
@@ -34,6 +36,7 @@ impl GuideSet {
                 .flat_map(|g| g.local.iter().copied())
                 .collect(),
             frames: resampled.iter().map(|g| g.frame).collect(),
+            directions: guides.iter().map(|g| g.direction()).collect(),
             lengths: resampled.iter().map(Guide::length).collect(),
             locator: Locator::new(
                 mesh,
@@ -41,6 +44,22 @@ impl GuideSet {
                 nearest,
             ),
         }
+    }
+
+    /// Number of guides.
+    pub(crate) fn len(&self) -> usize {
+        self.frames.len()
+    }
+
+    /// Every guide with its distance from `point`, as the locator measures it.
+    pub(crate) fn all(&self, point: Vec3) -> impl Iterator<Item = Near> {
+        self.frames
+            .iter()
+            .enumerate()
+            .map(move |(guide, frame)| Near {
+                guide: guide as u32,
+                square: frame.position.distance_squared(point),
+            })
     }
 
     /// Whether the group has no guide.

@@ -22,6 +22,7 @@ mod in_order;
 mod locator;
 mod maps;
 mod missing_tiles;
+mod neighbors;
 pub mod noise;
 mod plan;
 pub mod random;

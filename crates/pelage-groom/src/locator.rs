@@ -34,6 +34,12 @@ impl Near {
         (square.to_bits() as u64) << 32 | guide as u64
     }
 
+    /// What guides are ordered by: distance, then index.
+    #[inline]
+    pub(crate) fn order(&self) -> u64 {
+        Self::key(self.guide, self.square)
+    }
+
     #[inline(always)]
     fn of_key(key: u64) -> Self {
         Self {
@@ -71,7 +77,7 @@ impl Locator {
     pub fn new(mesh: &Mesh, roots: Vec<Vec3>, nearest: usize) -> Self {
         let nearest = nearest.clamp(1, roots.len().max(1));
         let (low, high) = mesh.bounds();
-        let side = cell_side(mesh, low, high, roots.len());
+        let side = cell_side(mesh, low, high, roots.len(), nearest);
         let cells = ((high - low) / side).map(|x| x.floor().max(0.0));
         let resolution = [cells.x as u32 + 1, cells.y as u32 + 1, cells.z as u32 + 1];
         let candidate = |(guide, &root): (usize, &Vec3)| Candidate {
@@ -118,7 +124,7 @@ impl Locator {
             4 => nearest_of(list, point, &mut [u64::MAX; 4], found),
             5 => nearest_of(list, point, &mut [u64::MAX; 5], found),
             6 => nearest_of(list, point, &mut [u64::MAX; 6], found),
-            n => nearest_of(list, point, &mut vec![u64::MAX; n], found),
+            n => nearest_of_many(list, point, n, found),
         }
     }
 
@@ -240,14 +246,29 @@ fn nearest_of(list: &[Candidate], point: Vec3, best: &mut [u64], found: &mut Vec
     found.extend(best.iter().map(|&key| Near::of_key(key)));
 }
 
+/// The same for more than a few, `nearest`, by sorting.
+fn nearest_of_many(list: &[Candidate], point: Vec3, nearest: usize, found: &mut Vec<Near>) {
+    found.extend(list.iter().map(|candidate| Near {
+        guide: candidate.guide,
+        square: candidate.root.distance_squared(point),
+    }));
+    if nearest < found.len() {
+        found.select_nth_unstable_by_key(nearest, Near::order);
+        found.truncate(nearest);
+    }
+    found.sort_unstable_by_key(Near::order);
+}
+
 /// Half the mean distance between guides on the surface: a dozen candidates a cell.
-/// Shorter lists would need more cells than they save.
-fn cell_side(mesh: &Mesh, low: Vec3, high: Vec3, guides: usize) -> f32 {
+/// Shorter lists would need more cells than they save. More than a few `nearest` have
+/// long lists in any case: larger cells keep what all cells hold together small.
+fn cell_side(mesh: &Mesh, low: Vec3, high: Vec3, guides: usize, nearest: usize) -> f32 {
     let area: f64 = (0..mesh.triangles().len()).map(|t| mesh.area(t)).sum();
     let size = (high - low)
         .as_dvec3()
         .max(pelage_curves::DVec3::splat(f64::MIN_POSITIVE));
-    let mut side = 0.5 * (area / guides.max(1) as f64).sqrt();
+    let long = (nearest as f64 / 8.0).max(1.0);
+    let mut side = 0.5 * (area * long / guides.max(1) as f64).sqrt();
     // At least a 256th of the largest extent, so that a flat sheet stays flat.
     side = side.max(size.max_element() / 256.0);
     while (size / side + 1.0).element_product() > MAX_CELLS {
@@ -301,7 +322,7 @@ mod tests {
             guides in prop::collection::vec(prop::array::uniform3(-8i8..9), 1..60),
             triangle in 0usize..8,
             u in 0.0f32..1.0, v in 0.0f32..1.0,
-            nearest in 1usize..7,
+            nearest in 1usize..20,
         ) {
             let mesh = octahedron();
             let roots: Vec<Vec3> = guides

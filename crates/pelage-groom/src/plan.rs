@@ -6,9 +6,11 @@ use crate::groups::Groups;
 use crate::guide::{self, Guide};
 use crate::guide_set::GuideSet;
 use crate::maps::{ColorField, FieldMaker, ScalarField};
-use crate::recipe::{self, GuideSource, Method, Recipe};
+use crate::neighbors::Sharing;
+use crate::recipe::{self, GuideSource, Recipe};
 use crate::stages::frizz::FrizzFields;
 use crate::stages::kink::KinkFields;
+use crate::stages::tint::Tint;
 use crate::{PlanError, RootPlan, grow, root_plan};
 use pelage_surface::Mesh;
 
@@ -17,8 +19,7 @@ use pelage_surface::Mesh;
 pub struct Plan {
     pub(crate) roots: RootPlan,
     pub(crate) guides: Vec<GuideSet>,
-    pub(crate) method: Method,
-    pub(crate) wanted: usize,
+    pub(crate) sharing: Sharing,
     pub(crate) fields: Fields,
     pub(crate) seed: u64,
     pub(crate) normals: bool,
@@ -37,6 +38,7 @@ pub(crate) struct Fields {
     pub kink: Option<KinkFields>,
     pub color: [ColorField; 2],
     pub color_space: ColorSpace,
+    pub tint: Tint,
     pub opacity: [ScalarField; 2],
     pub width: [ScalarField; 2],
 }
@@ -68,8 +70,7 @@ impl Plan {
         let mut plan = Self {
             roots,
             guides: Vec::new(),
-            method: recipe.interpolation.method,
-            wanted: recipe.interpolation.guides as usize,
+            sharing: Sharing::new(&recipe.interpolation),
             fields,
             seed: recipe.hair.seed,
             normals: recipe.output.normals,
@@ -89,10 +90,7 @@ impl Plan {
         if self.count() > 0 && all.is_empty() {
             return Err(PlanError::NoGuides);
         }
-        let nearest = match self.method {
-            Method::Nearest => 1,
-            _ => self.wanted + 1,
-        };
+        let nearest = self.sharing.nearest();
         let group_of: Vec<u32> = all.iter().map(|g| groups.at(rest.uv(&g.root))).collect();
         for (index, group) in groups.all().iter().enumerate() {
             let mine: Vec<&Guide> = all
@@ -168,6 +166,7 @@ impl Fields {
                 recipe::ColorSpace::Oklab => ColorSpace::Oklab,
                 recipe::ColorSpace::Rgb => ColorSpace::Rgb,
             },
+            tint: tint(recipe, maker)?,
             opacity: [
                 maker.scalar("opacity.root", &r.opacity.root)?,
                 maker.scalar("opacity.tip", &r.opacity.tip)?,
@@ -178,6 +177,17 @@ impl Fields {
             ],
         })
     }
+}
+
+fn tint(recipe: &Recipe, maker: &mut FieldMaker) -> Result<Tint, PlanError> {
+    let (mutant, variation) = (&recipe.color.mutant, &recipe.color.variation);
+    Ok(Tint {
+        mutant_percent: maker.scalar("color.mutant.percent", &mutant.percent)?,
+        mutant_color: maker.color("color.mutant.color", &mutant.color)?,
+        hue: maker.scalar("color.variation.hue", &variation.hue)?,
+        saturation: maker.scalar("color.variation.saturation", &variation.saturation)?,
+        value: maker.scalar("color.variation.value", &variation.value)?,
+    })
 }
 
 /// Most segments of a hair: what the formats that count them in 16 bits can hold.

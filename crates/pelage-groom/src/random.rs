@@ -19,6 +19,14 @@ pub enum Channel {
     Frizz = 4,
     /// The noise of `kink`.
     Kink = 5,
+    /// Whether a hair is a mutant.
+    Mutant = 8,
+    /// `color.variation.hue`.
+    Hue = 9,
+    /// `color.variation.saturation`.
+    Saturation = 10,
+    /// `color.variation.value`.
+    Value = 11,
 }
 
 /// A number in 0..1 for hair `hair` of the groom seeded `seed`.

@@ -12,7 +12,8 @@ words! {
         InverseDistance = "inverse-distance",
         /// The nearest guide alone.
         Nearest = "nearest",
-        /// Natural neighbours: Sibson's weights over the surface.
+        /// Natural neighbours: Sibson's weights over the surface, of all the
+        /// guides around a root, however many.
         NaturalNeighbor = "natural-neighbor",
     }
 }

@@ -10,32 +10,16 @@ struct Waiting {
     key: &'static str,
     /// What is not there, as a sentence begins.
     stage: &'static str,
-    /// Values other than the default that are there all the same.
-    built: &'static [&'static str],
 }
 
 const fn waiting(key: &'static str, stage: &'static str) -> Waiting {
-    Waiting {
-        key,
-        stage,
-        built: &[],
-    }
+    Waiting { key, stage }
 }
 
 /// Every key that switches a missing stage on. Keys that do nothing alone, such
 /// as `frizz.frequency` while both amounts are 0, need no line.
 const WAITING: &[Waiting] = &[
-    Waiting {
-        key: "interpolation.method",
-        stage: "natural-neighbor interpolation",
-        built: &["\"nearest\""],
-    },
     waiting("interpolation.space", "interpolation in Frenet space"),
-    waiting("interpolation.facing", "weighting by where guides point"),
-    waiting("color.mutant.percent", "the colour of mutant hair"),
-    waiting("color.variation.hue", "the variation of colour"),
-    waiting("color.variation.saturation", "the variation of colour"),
-    waiting("color.variation.value", "the variation of colour"),
     waiting("strand.count", "the strand stage"),
     waiting("output.skip_threshold", "the dropping of unneeded vertices"),
 ];
@@ -96,8 +80,7 @@ fn unbuilt(leaf: &Leaf<'_>, default: &Leaf<'_>) -> Option<String> {
     }
     let waiting = WAITING.iter().find(|waiting| waiting.key == leaf.key)?;
     let text = leaf.text.as_deref().unwrap_or_default();
-    let same = text == neutral || (leaf.zero && default.zero);
-    if same || waiting.built.contains(&text) {
+    if text == neutral || (leaf.zero && default.zero) {
         return None;
     }
     let stage = waiting.stage;

@@ -4,12 +4,15 @@
 //! what it does, where that comes from, and the space and unit of its arrays.
 
 pub mod cut;
+pub mod facing;
 pub mod frames;
 pub mod frizz;
 pub mod interpolate;
 pub mod kink;
 pub mod look;
+pub mod natural;
 pub mod roots;
 pub mod scale;
+pub mod tint;
 pub mod weights;
 pub mod world;

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What to make the groom of.
-pub struct Fixture {
+pub struct Fixture<'a> {
     /// Hairs of the recipe.
     pub count: u64,
     /// Rings of the ball, twice as many columns.
@@ -21,7 +21,7 @@ pub struct Fixture {
     /// Texture turned by a quarter.
     pub turned_uvs: bool,
     /// More lines of the recipe.
-    pub more: &'static str,
+    pub more: &'a str,
 }
 
 /// Displaced roots.
@@ -35,17 +35,23 @@ const NOISY: &str = "
     kink = { root = 0.01, tip = 0.05, frequency = [20, { value = 30, map = 'length.png' }, 20] }
 ";
 
-/// Grooms of every kind.
-pub fn kinds() -> impl Iterator<Item = Fixture> {
+/// What hairs can take from their guides and from chance.
+const SHARED: &str = "interpolation = { method = 'natural-neighbor', facing = true }
+    color.mutant = { percent = 20.0 }
+    color.variation = { hue = 20.0, saturation = 0.1, value = 0.1 }";
+
+/// Every kind of roots, and of hairs.
+pub fn kinds() -> impl Iterator<Item = Fixture<'static>> {
     let patterns = ["roots.pattern = 'random'", "roots.pattern = 'blue-noise'"];
-    let kinds = ["", DISPLACED, NOISY, patterns[0], patterns[1]];
-    kinds.into_iter().map(|more| Fixture {
-        more,
-        ..Fixture::default()
-    })
+    ["", DISPLACED, NOISY, patterns[0], patterns[1], SHARED]
+        .into_iter()
+        .map(|more| Fixture {
+            more,
+            ..Fixture::default()
+        })
 }
 
-impl Default for Fixture {
+impl Default for Fixture<'_> {
     fn default() -> Self {
         Self {
             count: 5000,
@@ -57,7 +63,7 @@ impl Default for Fixture {
     }
 }
 
-impl Fixture {
+impl Fixture<'_> {
     /// The ball, with a seam along a meridian.
     pub fn mesh(&self) -> PolygonMesh {
         let (rows, columns) = (self.rings, self.rings * 2);

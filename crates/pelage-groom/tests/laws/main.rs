@@ -4,6 +4,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod fixture;
+mod interpolation;
+mod look;
 
 use fixture::{Fixture, collect, kinds, moved, strands};
 use pelage_curves::{Vec3, catmull_rom};

@@ -84,6 +84,9 @@ fn maps_are_listed_with_their_keys() {
         "groups.map",
         "scale.amount",
         "color.tip",
+        "color.mutant.percent",
+        "color.mutant.color",
+        "color.variation.hue",
         "opacity.tip",
         "width.tip",
     ];
