@@ -1,13 +1,10 @@
-//! The figures of docs/results/speed.md, measured again: `cargo bench -p pelage`, or
-//! `cargo bench -p pelage -- write` for those of files alone. `TMPDIR` chooses the disk.
-//!
-//! Each line of the generation is the best of a few runs. Cost by stage comes from the
-//! same clock that `pelage generate --stats` shows. Memory bandwidth is that of copying
-//! a large array, bytes read plus bytes written, in the same process.
+//! The figures of files in docs/results/speed.md, measured again: `cargo bench -p pelage`.
+//! `TMPDIR` chooses the disk. `pelage bench generation` measures what hair costs without
+//! a file.
 
-use pelage::groom::{Groom, Images, Stage};
+use pelage::groom::{Groom, Images};
 use pelage::io::{WriteOptions, sink_for};
-use pelage::strands::{Null, StreamInfo};
+use pelage::strands::StreamInfo;
 use pelage::{Plan, Recipe, Report, Request, Sink, generate};
 use std::io::Write;
 use std::path::Path;
@@ -21,29 +18,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     println!("{cores} cores; {HAIRS} hairs of 6 CVs, 1,000 guides, 3 neighbours, no map\n");
     let plan = plan()?;
-    if !std::env::args().any(|argument| argument == "write") {
-        generation(&plan, cores)?;
-    }
     let folder = std::env::temp_dir().join(format!("pelage-bench-{}", std::process::id()));
     std::fs::create_dir_all(&folder)?;
     let written = write_rates(&plan, cores, &folder);
     std::fs::remove_dir_all(&folder)?;
     written
-}
-
-fn generation(plan: &Plan, cores: usize) -> Result<(), String> {
-    println!("copying memory, one core: {:.1} GB/s", bandwidth());
-    for threads in [1, cores] {
-        let (seconds, report) = best(3, || run(plan, threads, &mut Null))?;
-        println!(
-            "null sink, {threads} threads: {seconds:.3} s, {:.2} M hairs/s",
-            HAIRS as f64 / seconds / 1e6
-        );
-        if threads == 1 {
-            stages(&report);
-        }
-    }
-    Ok(())
 }
 
 /// A ball of 9,024 triangles with grown guides.
@@ -72,40 +51,6 @@ fn run(plan: &Plan, threads: usize, sink: &mut dyn Sink) -> Result<Report, Strin
         info: StreamInfo::default(),
     };
     generate(plan, &request, &mut |_| Ok(None), sink, &mut |_| true).map_err(|e| e.to_string())
-}
-
-fn best<T>(runs: usize, mut work: impl FnMut() -> Result<T, String>) -> Result<(f64, T), String> {
-    let mut best: Option<(f64, T)> = None;
-    for _ in 0..runs {
-        let started = Instant::now();
-        let made = work()?;
-        let seconds = started.elapsed().as_secs_f64();
-        if best.as_ref().is_none_or(|(b, _)| seconds < *b) {
-            best = Some((seconds, made));
-        }
-    }
-    best.ok_or_else(|| "no run".into())
-}
-
-fn stages(report: &Report) {
-    for stage in Stage::ALL {
-        let cost = report.clock.spent(stage).as_secs_f64() * 1e9 / HAIRS as f64;
-        println!("  {:<12} {cost:6.1} ns a hair", stage.name());
-    }
-}
-
-fn bandwidth() -> f64 {
-    let source = vec![1u8; 256 << 20];
-    let mut target = vec![0u8; source.len()];
-    let seconds = (0..5)
-        .map(|_| {
-            let started = Instant::now();
-            target.copy_from_slice(std::hint::black_box(&source));
-            std::hint::black_box(&target);
-            started.elapsed().as_secs_f64()
-        })
-        .fold(f64::INFINITY, f64::min);
-    2.0 * source.len() as f64 / seconds / 1e9
 }
 
 /// A USD crate file against a plain write of as many bytes, both synced to disk, in

@@ -327,7 +327,8 @@ pub struct InspectArgs {
 /// `pelage bench`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  pelage bench sampling\n  \
-    pelage bench sampling -o results --json results/sampling.json")]
+    pelage bench sampling -o results --json results/sampling.json\n  \
+    pelage bench generation -o results")]
 pub struct BenchArgs {
     /// What to measure.
     #[arg(value_enum)]
@@ -348,6 +349,9 @@ pub struct BenchArgs {
 pub enum Bench {
     /// Drawing roots: rates, preprocessing and memory against other methods.
     Sampling,
+    /// Growing hairs: seconds and cost by stage, with everything made and with what
+    /// was taken of the rest pose kept.
+    Generation,
 }
 
 #[cfg(test)]

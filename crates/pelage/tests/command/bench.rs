@@ -4,6 +4,15 @@ use crate::groom::{Folder, pelage};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
+/// The keys of a row.
+fn keys(row: &Value) -> BTreeSet<&str> {
+    row.as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect()
+}
+
 #[test]
 fn measuring_writes_tables_plots_and_data_of_every_method() {
     let folder = Folder::new();
@@ -24,9 +33,7 @@ fn measuring_writes_tables_plots_and_data_of_every_method() {
     let rows: Vec<Value> = serde_json::from_slice(&folder.bytes("rows.json")).unwrap();
     let mut methods = BTreeSet::new();
     for row in &rows {
-        let row = row.as_object().unwrap();
-        let keys: BTreeSet<&str> = row.keys().map(String::as_str).collect();
-        assert_eq!(keys, KEYS.into());
+        assert_eq!(keys(row), SAMPLING.into());
         assert!(row["seconds"].as_f64().unwrap() > 0.0);
         methods.insert(row["method"].as_str().unwrap());
     }
@@ -36,8 +43,60 @@ fn measuring_writes_tables_plots_and_data_of_every_method() {
     );
 }
 
-/// What programs that read the data may rely on.
-const KEYS: [&str; 10] = [
+#[test]
+fn measuring_generation_writes_the_page_the_chart_and_data_of_every_scene() {
+    let folder = Folder::new();
+    let (results, data) = (folder.path("results"), folder.path("rows.json"));
+    let printed = pelage(&[
+        "bench",
+        "generation",
+        "--quick",
+        "-o",
+        &results,
+        "--json",
+        &data,
+    ]);
+    let chart = folder.bytes("results/generation-stages.svg");
+    assert!(chart.starts_with(b"<svg"));
+    let page = String::from_utf8(folder.bytes("results/generation.md")).unwrap();
+    assert!(page.contains(printed.trim_end()), "{printed}");
+
+    let rows: Vec<Value> = serde_json::from_slice(&folder.bytes("rows.json")).unwrap();
+    let mut scenes = BTreeSet::new();
+    for row in &rows {
+        assert_eq!(keys(row), GENERATION.into());
+        for time in ["seconds_cold", "seconds_warm"] {
+            assert!(row[time].as_f64().unwrap() > 0.0, "{time}");
+        }
+        for stage in pelage::groom::Stage::ALL {
+            assert!(row["stages"][stage.name()].is_number(), "{row}");
+        }
+        scenes.insert((row["scene"].as_str().unwrap(), row["cvs"].as_u64().unwrap()));
+    }
+    let expected = [
+        ("plain", 6),
+        ("plain", 16),
+        ("five maps", 6),
+        ("five maps", 16),
+    ];
+    assert_eq!(scenes, expected.into());
+}
+
+/// What programs that read the data of generation may rely on.
+const GENERATION: [&str; 9] = [
+    "scene",
+    "hairs",
+    "cvs",
+    "fibers",
+    "threads",
+    "seconds_cold",
+    "seconds_warm",
+    "stages",
+    "peak_bytes",
+];
+
+/// What programs that read the data of sampling may rely on.
+const SAMPLING: [&str; 10] = [
     "mesh",
     "triangles",
     "map",

@@ -1,5 +1,8 @@
 //! `pelage bench`: figures of the results, measured again on the machine at hand.
 
+mod bars;
+mod cost;
+mod generation;
 mod maps;
 mod measure;
 mod methods;
@@ -7,27 +10,40 @@ mod order;
 mod picks;
 mod plot;
 mod sampling;
+mod scenes;
 mod surfaces;
 
-use super::args::BenchArgs;
-use super::files::{json, write};
+use super::args::{Bench, BenchArgs};
+use super::files::write;
 use super::say::Say;
 use anyhow::{Context, Result};
 use std::process::ExitCode;
 
+/// What was measured, ready to be printed and written.
+pub struct Findings {
+    /// The tables as Markdown.
+    pub tables: String,
+    /// The measurements as JSON.
+    pub data: String,
+    /// Files for the folder of results: their names and what they hold.
+    pub files: Vec<(&'static str, String)>,
+}
+
 /// Measures, prints the tables and writes what was asked for.
 pub fn run(args: &BenchArgs, say: &Say) -> Result<ExitCode> {
-    let results = sampling::run(args.quick, say);
-    say.line(results.tables().trim_end());
+    let found = match args.what {
+        Bench::Sampling => sampling::run(args.quick, say).findings()?,
+        Bench::Generation => generation::run(args.quick, say)?.findings()?,
+    };
+    say.line(found.tables.trim_end());
     if let Some(path) = &args.json {
-        write(path, &json(&results.rows())?)?;
+        write(path, &found.data)?;
     }
     if let Some(folder) = &args.output {
         std::fs::create_dir_all(folder)
             .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-        write(&folder.join("sampling.md"), &results.page())?;
-        for (name, plot) in results.plots()? {
-            write(&folder.join(name), &plot)?;
+        for (name, text) in &found.files {
+            write(&folder.join(name), text)?;
         }
     }
     Ok(ExitCode::SUCCESS)

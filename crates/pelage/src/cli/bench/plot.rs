@@ -17,7 +17,7 @@ pub struct Axes<'a> {
 }
 
 /// Colours that people with any colour vision can tell apart (Okabe and Ito).
-const COLORS: [RGBColor; 7] = [
+pub const COLORS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),

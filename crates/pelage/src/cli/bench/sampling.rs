@@ -1,5 +1,6 @@
 //! `pelage bench sampling`: the tables of document 004, section 4.1, measured again.
 
+use super::Findings;
 use super::maps::{Map, map, maps};
 use super::measure::{Effort, Row, measure};
 use super::methods::{METHODS, sampler};
@@ -7,6 +8,7 @@ use super::order::{self, Evenness};
 use super::picks;
 use super::plot::{Axes, Line, logarithmic};
 use super::surfaces::{Surface, first_surface, surfaces};
+use crate::cli::files::json;
 use crate::cli::generate::threads_of;
 use crate::cli::progress::Bar;
 use crate::cli::say::Say;
@@ -130,8 +132,19 @@ fn by_threads(surface: &Surface, maps: &[Map], effort: Effort) -> Vec<Row> {
 }
 
 impl Results {
+    /// All of it, to be printed and written.
+    pub fn findings(&self) -> Result<Findings> {
+        let mut files = vec![("sampling.md", self.page())];
+        files.extend(self.plots()?);
+        Ok(Findings {
+            tables: self.tables(),
+            data: json(&self.rows())?,
+            files,
+        })
+    }
+
     /// All measurements of whole methods.
-    pub fn rows(&self) -> Vec<&Row> {
+    fn rows(&self) -> Vec<&Row> {
         self.rates
             .iter()
             .chain(&self.sizes)
@@ -140,7 +153,7 @@ impl Results {
     }
 
     /// The tables and plots as Markdown, with what they are.
-    pub fn page(&self) -> String {
+    fn page(&self) -> String {
         let cores = threads_of(0);
         let version = env!("CARGO_PKG_VERSION");
         format!(
@@ -152,7 +165,7 @@ impl Results {
     }
 
     /// The tables as Markdown, each below its heading.
-    pub fn tables(&self) -> String {
+    fn tables(&self) -> String {
         let mut text = String::new();
         // Writing to a String cannot fail.
         let _ = self.write_tables(&mut text);
@@ -258,7 +271,7 @@ impl Results {
     }
 
     /// Plots by the name of their files.
-    pub fn plots(&self) -> Result<Vec<(&'static str, String)>> {
+    fn plots(&self) -> Result<Vec<(&'static str, String)>> {
         let cells = self.cells.iter().map(|(map, rates)| Line {
             name: (*map).into(),
             points: picks::CELLS
