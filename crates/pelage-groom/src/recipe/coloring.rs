@@ -43,7 +43,7 @@ section! {
     /// Hairs of another colour, such as grey ones.
     pub struct Mutant {
         /// How many hairs, in per cent (document 004: Percent_Mutant_Hair).
-        pub percent: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 100.0),
+        pub percent: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 100.0).unit("per cent"),
         /// Their colour, the same from root to tip (document 004:
         /// Mutant_Hair_Color).
         pub color: ColorProperty = ColorProperty::new(GREY) => Rule::ANY,
@@ -54,7 +54,7 @@ section! {
     /// Colours that differ at random from hair to hair.
     pub struct Variation {
         /// Largest shift of the hue, in degrees (document 004: Hue_Variation).
-        pub hue: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 180.0),
+        pub hue: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 180.0).degrees(),
         /// Largest shift of the saturation (document 004: Saturation_Variation).
         pub saturation: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 1.0),
         /// Largest shift of the value (document 004: Value_Variation).

@@ -10,6 +10,7 @@ use toml::de::DeValue;
 use super::embed::inline;
 use super::limits::Limits;
 use super::map::MapUse;
+use super::outline::{KeyOutline, Told};
 use super::reader::Reader;
 
 /// What a key asks of its value.
@@ -21,6 +22,8 @@ pub(crate) struct Rule {
     pub(crate) required: bool,
     /// Whether it takes `{ ramp = … }`: the root of a root/tip pair.
     pub(crate) ramp: bool,
+    /// The unit of its numbers, in words.
+    pub(crate) unit: Option<&'static str>,
 }
 
 impl Rule {
@@ -31,6 +34,7 @@ impl Rule {
             limits,
             required: false,
             ramp: false,
+            unit: None,
         }
     }
 
@@ -54,6 +58,20 @@ impl Rule {
     pub(crate) const fn with_ramp(mut self) -> Self {
         self.ramp = true;
         self
+    }
+
+    pub(crate) const fn unit(mut self, unit: &'static str) -> Self {
+        self.unit = Some(unit);
+        self
+    }
+
+    /// A length over the surface or along a hair.
+    pub(crate) const fn length(self) -> Self {
+        self.unit("units of the mesh")
+    }
+
+    pub(crate) const fn degrees(self) -> Self {
+        self.unit("degrees")
     }
 }
 
@@ -126,6 +144,21 @@ pub(crate) trait Entry {
     /// Shows every key below this one.
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>));
 
+    /// Tells what is to be known of this key, or of every key below it.
+    fn outline(
+        &self,
+        key: &str,
+        doc: &'static str,
+        rule: Rule,
+        generator: &mut SchemaGenerator,
+        tell: &mut dyn FnMut(Told),
+    ) {
+        let schema = self.schema(rule, generator).to_value();
+        let mut outline = KeyOutline::new(key, doc, rule, &schema);
+        self.walk(key, doc, &mut |leaf| outline.default = leaf.text);
+        tell(Told::Key(outline));
+    }
+
     /// Lets relative paths start at `folder`.
     fn settle(&mut self, _folder: &Path) {}
 
@@ -164,6 +197,25 @@ impl<T: Entry + Default> Entry for Option<T> {
             Some(inner) => inner.walk(key, doc, visit),
             None => visit(Leaf::absent(key, doc)),
         }
+    }
+
+    fn outline(
+        &self,
+        key: &str,
+        doc: &'static str,
+        rule: Rule,
+        generator: &mut SchemaGenerator,
+        tell: &mut dyn FnMut(Told),
+    ) {
+        let mut tell = |told| match told {
+            // The default is that there is none.
+            Told::Key(outline) if outline.key == key => tell(Told::Key(KeyOutline {
+                default: None,
+                ..outline
+            })),
+            told => tell(told),
+        };
+        T::default().outline(key, doc, rule, generator, &mut tell);
     }
 
     fn settle(&mut self, folder: &Path) {

@@ -13,9 +13,10 @@ section! {
             [ScalarProperty::new(1.0), ScalarProperty::new(1.0), ScalarProperty::new(1.0)]
             => Rule::at_least(0.0),
         /// Amount at the root (document 004: Root_Frizz).
-        pub root: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).with_ramp(),
+        pub root: ScalarProperty = ScalarProperty::new(0.0)
+            => Rule::at_least(0.0).length().with_ramp(),
         /// Amount at the tip (document 004: Tip_Frizz).
-        pub tip: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0),
+        pub tip: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).length(),
         /// Noise that moves with time.
         pub animation: FrizzAnimation = FrizzAnimation::default() => Rule::ANY,
     }

@@ -15,12 +15,12 @@ section! {
         /// to 2^64 - 1.
         pub seed: u64 = 0 => Rule::at_least(0.0),
         /// Length of a guide, in units of the mesh.
-        pub length: ScalarProperty = ScalarProperty::new(1.0) => Rule::at_least(0.0).required(),
+        pub length: ScalarProperty = ScalarProperty::new(1.0) => Rule::at_least(0.0).length().required(),
         /// Segments of a guide; it has one vertex more.
         pub segments: u32 = 8 => Rule::at_least(1.0),
         /// Angle from the normal of the surface toward the comb direction, in
         /// degrees: 0 stands up, 90 lies flat.
-        pub lean: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 180.0),
+        pub lean: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 180.0).degrees(),
         /// The direction to lean in. Left out, the tangent along +u.
         pub comb: Option<Comb> = None => Rule::ANY,
         /// A helix around the line of each guide.
@@ -32,8 +32,8 @@ section! {
     /// A helix around the line of a guide.
     pub struct Curl {
         /// Radius, in units of the mesh; 0 is straight.
-        pub radius: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0),
+        pub radius: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).length(),
         /// Turns from root to tip, to the left where negative.
-        pub turns: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY,
+        pub turns: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY.unit("turns"),
     }
 }

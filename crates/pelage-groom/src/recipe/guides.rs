@@ -14,7 +14,7 @@ section! {
         /// How far from the rest mesh a guide may start, in units of the mesh; its
         /// root is the closest point. Left out, a hundredth of the diagonal of the
         /// mesh's box. Goes with `curves`.
-        pub tolerance: Option<f32> = None => Rule::at_least(0.0),
+        pub tolerance: Option<f32> = None => Rule::at_least(0.0).length(),
         /// Guides grown by rule instead of read from a file. Excludes `curves`.
         pub grow: Option<Grow> = None => Rule::ANY,
     }

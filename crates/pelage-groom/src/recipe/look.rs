@@ -18,8 +18,9 @@ section! {
     /// Width of hairs: the full diameter, in units of the mesh.
     pub struct Width {
         /// Width at the root (document 004: Root_Thickness).
-        pub root: ScalarProperty = ScalarProperty::new(0.02) => Rule::at_least(0.0).with_ramp(),
+        pub root: ScalarProperty = ScalarProperty::new(0.02)
+            => Rule::at_least(0.0).length().with_ramp(),
         /// Width at the tip (document 004: Tip_Thickness).
-        pub tip: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0),
+        pub tip: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).length(),
     }
 }

@@ -29,6 +29,6 @@ section! {
         /// How far roots move along the normal of the posed mesh, in units of the
         /// mesh: the displacement of the skin's shader. Where hairs grow is not
         /// changed by it.
-        pub displacement: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY,
+        pub displacement: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY.length(),
     }
 }

@@ -115,6 +115,23 @@ macro_rules! table {
                 )+
             }
 
+            fn outline(
+                &self,
+                key: &str,
+                doc: &'static str,
+                rule: $crate::recipe::entry::Rule,
+                generator: &mut schemars::SchemaGenerator,
+                tell: &mut dyn FnMut($crate::recipe::outline::Told),
+            ) {
+                let _ = rule;
+                tell($crate::recipe::outline::Told::Section { key: key.to_owned(), doc });
+                $(
+                    let name = $crate::recipe::reader::join(key, stringify!($field));
+                    let doc = concat!($($field_doc, "\n"),*);
+                    self.$field.outline(&name, doc, $rule, generator, tell);
+                )+
+            }
+
             fn settle(&mut self, folder: &std::path::Path) {
                 $(self.$field.settle(folder);)+
             }

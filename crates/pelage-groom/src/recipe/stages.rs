@@ -25,7 +25,13 @@ const WAITING: &[Waiting] = &[
 ];
 
 /// Whether values along a strand can be given as ramps.
-const RAMPS: bool = false;
+pub(super) const RAMPS: bool = false;
+
+/// The stage that `key` waits for, if it does.
+pub(super) fn missing(key: &str) -> Option<&'static str> {
+    let waiting = WAITING.iter().find(|waiting| waiting.key == key)?;
+    Some(waiting.stage)
+}
 
 /// A key of a recipe whose stage does not exist yet.
 #[derive(Clone, Debug, PartialEq, Eq)]

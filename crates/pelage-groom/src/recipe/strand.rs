@@ -11,13 +11,13 @@ section! {
         pub count: u32 = 0 => Rule::at_least(0.0),
         /// Angle by which the bundle turns from root to tip, in degrees (document
         /// 004: Twist).
-        pub twist: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY,
+        pub twist: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY.degrees(),
         /// Extent of the bundle along the binormal over that along the normal
         /// (document 004: Aspect).
         pub aspect: ScalarProperty = ScalarProperty::new(1.0) => Rule::at_least(0.0),
         /// Shift of the tip along the normal, in units of the mesh (document 004:
         /// Offset).
-        pub offset: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY,
+        pub offset: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY.length(),
         /// How much shorter fibres may be at random (document 004:
         /// Randomize_Strand).
         pub randomize: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 1.0),
@@ -31,10 +31,11 @@ section! {
     pub struct Splay {
         /// Distance at the root (document 004: Root_Splay). A ramp here tells the
         /// whole hair; leave `center` and `tip` out.
-        pub root: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).with_ramp(),
+        pub root: ScalarProperty = ScalarProperty::new(0.0)
+            => Rule::at_least(0.0).length().with_ramp(),
         /// Distance half-way (document 004: Center_Splay).
-        pub center: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0),
+        pub center: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).length(),
         /// Distance at the tip (document 004: Tip_Splay).
-        pub tip: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0),
+        pub tip: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).length(),
     }
 }

@@ -30,6 +30,6 @@ section! {
         pub up: Option<Up> = None => Rule::ANY,
         /// Metres in one unit of the mesh (0.01: centimetres). Left out, what the
         /// file says, or 0.01 where it says nothing.
-        pub meters_per_unit: Option<f64> = None => Rule::above(0.0),
+        pub meters_per_unit: Option<f64> = None => Rule::above(0.0).unit("metres"),
     }
 }

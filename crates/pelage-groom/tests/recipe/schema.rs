@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use pelage_groom::recipe::{Recipe, schema, schema_text};
+use pelage_groom::recipe::{Recipe, properties_text, schema, schema_text};
 
 use super::corpus::{examples, folder, is_checked_in, recipes};
 
@@ -12,6 +12,18 @@ fn the_checked_in_schema_is_up_to_date() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let path = root.join("schema/groom.schema.json");
     let fresh = is_checked_in(&path, &schema_text());
+    assert!(
+        fresh,
+        "{} is old: run the tests with PELAGE_BLESS=1",
+        path.display()
+    );
+}
+
+#[test]
+fn the_checked_in_page_of_properties_is_up_to_date() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let path = root.join("docs/properties.md");
+    let fresh = is_checked_in(&path, &properties_text());
     assert!(
         fresh,
         "{} is old: run the tests with PELAGE_BLESS=1",

@@ -47,8 +47,14 @@ pub enum Command {
     Inspect(InspectArgs),
     /// Measure the figures of docs/results again, on this machine.
     Bench(BenchArgs),
-    /// Print the JSON Schema of groom.toml, for editors.
-    Schema,
+    /// Print the JSON Schema of groom.toml, for editors, or a page of all properties.
+    #[command(after_help = "Examples:\n  pelage schema > groom.schema.json\n  \
+        pelage schema --markdown > properties.md")]
+    Schema {
+        /// Print every property explained, as Markdown.
+        #[arg(long)]
+        markdown: bool,
+    },
     /// Print a completion script for a shell.
     #[command(after_help = "Example:\n  pelage completions bash > \
         ~/.local/share/bash-completion/completions/pelage")]

@@ -37,7 +37,7 @@ pub fn run() -> ExitCode {
         Command::Render(args) => picture::run(&args, &say),
         Command::Inspect(args) => inspect::run(&args, &say),
         Command::Bench(args) => bench::run(&args, &say),
-        Command::Schema => pages::schema(),
+        Command::Schema { markdown } => pages::schema(markdown),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man { folder } => pages::man(folder.as_deref(), &say),
     };

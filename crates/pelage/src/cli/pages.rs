@@ -8,9 +8,13 @@ use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Prints the JSON Schema of `groom.toml`.
-pub fn schema() -> Result<ExitCode> {
-    print(pelage::groom::recipe::schema_text().as_bytes())
+/// Prints the JSON Schema of `groom.toml`, or the page that explains its keys.
+pub fn schema(markdown: bool) -> Result<ExitCode> {
+    let text = match markdown {
+        true => pelage::groom::recipe::properties_text(),
+        false => pelage::groom::recipe::schema_text(),
+    };
+    print(text.as_bytes())
 }
 
 /// Prints a completion script.

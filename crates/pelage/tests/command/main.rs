@@ -219,6 +219,7 @@ fn every_example_grows_sound_hair_and_shows_it() {
 #[test]
 fn the_pages_for_editors_shells_and_readers_are_there() {
     assert!(pelage(&["schema"]).contains("json-schema.org"));
+    assert!(pelage(&["schema", "--markdown"]).contains("## `[frizz.animation]`"));
     assert!(pelage(&["completions", "bash"]).contains("_pelage"));
     assert!(pelage(&["man"]).contains(".TH pelage"));
     assert!(pelage(&["generate", "--help"]).contains("Examples:"));

@@ -1,0 +1,63 @@
+//! The page that explains every property to people.
+
+use super::outline::{KeyOutline, outline};
+use super::stages;
+use std::fmt::Write;
+
+/// What stands before the tables.
+const INTRODUCTION: &str = include_str!("page.md");
+
+/// The page of all properties as Markdown, as it is checked in.
+pub fn properties_text() -> String {
+    let mut text = INTRODUCTION.to_owned();
+    if !stages::RAMPS {
+        text += "Ramps are to come too.\n";
+    }
+    for section in outline() {
+        let does = &section.does;
+        // Writing to a String cannot fail.
+        let _ = write!(text, "\n## `[{}]`\n\n{does}\n", section.key);
+        if section.keys.is_empty() {
+            continue;
+        }
+        text += "\n| key | what it does | values | default | takes | document 004 | there |\n\
+            |---|---|---|---|---|---|---|\n";
+        section.keys.iter().for_each(|key| text += &row(key));
+    }
+    text
+}
+
+fn row(key: &KeyOutline) -> String {
+    let (_, name) = key.key.rsplit_once('.').unwrap_or(("", &key.key));
+    let unit = key.unit.map_or(String::new(), |unit| format!("; {unit}"));
+    let default = match (&key.default, key.required) {
+        (_, true) => "(required)".to_owned(),
+        (Some(default), _) => format!("`{default}`"),
+        (None, _) => String::new(),
+    };
+    let takes = [("map", key.map), ("ramp", key.ramp)];
+    let takes: Vec<&str> = takes
+        .iter()
+        .filter(|(_, takes)| *takes)
+        .map(|(what, _)| *what)
+        .collect();
+    let there = match key.missing {
+        None => "yes".to_owned(),
+        // The other words are there.
+        Some(stage) if key.choice => format!("without {stage}"),
+        Some(_) => "*to come*".to_owned(),
+    };
+    format!(
+        "| `{name}` | {} | {}{unit} | {default} | {} | {} | {there} |\n",
+        cell(&key.does),
+        cell(&key.values),
+        takes.join(", "),
+        key.ancestors.join(", "),
+    )
+}
+
+/// `text` in one line of a table.
+fn cell(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().filter(|line| !line.is_empty()).collect();
+    lines.join("<br>").replace('|', "\\|")
+}
