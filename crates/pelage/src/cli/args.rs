@@ -1,5 +1,6 @@
 //! What can be typed.
 
+use super::import::Dialect;
 use super::values::{frames, open_range, size, vector, whole};
 use anyhow::{Result, bail};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -28,7 +29,8 @@ Examples:
   pelage generate groom.toml -o hair.usdc         all hairs as USD
   pelage generate groom.toml -o null --stats -    how fast, by stage
   pelage sample groom.toml -n 1000 -o roots.npz   where hairs stand, without hair
-  pelage inspect hair.usdc                        what is in a file, and what is wrong";
+  pelage inspect hair.usdc                        what is in a file, and what is wrong
+  pelage import --from stubble old.ma -o new.toml  a recipe from an older program";
 
 /// A command.
 #[derive(Debug, Subcommand)]
@@ -47,6 +49,8 @@ pub enum Command {
     Inspect(InspectArgs),
     /// Measure the figures of docs/results again, on this machine.
     Bench(BenchArgs),
+    /// Make a recipe from the parameters of another hair generator.
+    Import(ImportArgs),
     /// Print the JSON Schema of groom.toml, for editors, or a page of all properties.
     #[command(after_help = "Examples:\n  pelage schema > groom.schema.json\n  \
         pelage schema --markdown > properties.md")]
@@ -329,6 +333,33 @@ pub struct InspectArgs {
     #[arg(long)]
     pub json: bool,
 }
+
+/// `pelage import`.
+#[derive(Debug, Args)]
+#[command(after_help = IMPORT_EXAMPLES)]
+pub struct ImportArgs {
+    /// A Maya ASCII scene or MEL script with `setAttr` lines, or a list of `name = value`
+    /// lines. Of a scene, the first hair is taken.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// The program whose parameters they are.
+    #[arg(long, value_enum, value_name = "PROGRAM")]
+    pub from: Dialect,
+    /// The recipe to write. It tells what was not mapped in its last lines.
+    #[arg(long, short, value_hint = ValueHint::FilePath, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Overwrite a file that is there.
+    #[arg(long)]
+    pub force: bool,
+}
+
+const IMPORT_EXAMPLES: &str = "\
+Examples:
+  pelage import --from stubble scene.ma -o groom.toml
+  pelage import --from shave hair.mel -o groom.toml
+
+Of Shave, the long names of its Maya node are known, such as hairCount, not the short
+ones that Maya writes into scenes.";
 
 /// `pelage bench`.
 #[derive(Debug, Args)]

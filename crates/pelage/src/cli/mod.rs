@@ -8,6 +8,7 @@ mod bench;
 mod demo;
 mod files;
 mod generate;
+mod import;
 mod init;
 mod inspect;
 mod pages;
@@ -38,6 +39,7 @@ pub fn run() -> ExitCode {
         Command::Inspect(args) => inspect::run(&args, &say),
         Command::Bench(args) => bench::run(&args, &say),
         Command::Schema { markdown } => pages::schema(markdown),
+        Command::Import(args) => import::run(&args, &say),
         Command::Completions { shell } => pages::completions(shell),
         Command::Man { folder } => pages::man(folder.as_deref(), &say),
     };

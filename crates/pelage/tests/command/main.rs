@@ -5,6 +5,7 @@
 
 mod bench;
 mod groom;
+mod import;
 mod maps;
 mod meshes;
 mod sample;
