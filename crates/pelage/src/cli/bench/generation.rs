@@ -16,7 +16,7 @@ use std::fmt::Write;
 /// What the scenes and columns of the page are.
 const PREFACE: &str = "
 A ball of 9,024 triangles with 1,000 guides, of which 3 shape a hair; hairs of 5 and of 15
-segments, one fibre each, into the null sink. `plain` sets scale, frizz, kink, and colour,
+segments, one fibre each, into the null sink. `plain` sets scale, frizz, kink, mutant hair, the variation of colour, and colour,
 opacity and width from root to tip, and no map; `five maps` has maps of 1024² texels for density, scale, colour, opacity and
 width, as document 004 compares (section 4.2). Its scenes of multi-strands (200,000 hairs
 of 5 fibres) will stand here when multi-strands do. *Cold* is everything from roots to the

@@ -21,7 +21,7 @@ color.space = "hsv"
 
 /// Each property with its value, and one of our maps for the scene that has maps. A
 /// property that arrives gets its line here.
-const PROPERTIES: [(&str, &str, Option<&str>); 13] = [
+const PROPERTIES: [(&str, &str, Option<&str>); 16] = [
     ("roots.density", "1.0", Some("noise 512")),
     ("scale.amount", "1.0", Some("noise 8")),
     ("scale.random", "0.3", None),
@@ -31,6 +31,9 @@ const PROPERTIES: [(&str, &str, Option<&str>); 13] = [
     ("kink.tip", "0.01", None),
     ("color.root", r##""#3b2a1e""##, Some("noise 64")),
     ("color.tip", r##""#d9b98a""##, None),
+    ("color.mutant.percent", "3.0", None),
+    ("color.variation.hue", "10.0", None),
+    ("color.variation.value", "0.1", None),
     ("opacity.root", "1.0", None),
     ("opacity.tip", "0.6", Some("checkerboard")),
     ("width.root", "0.002", Some("noise 64")),
