@@ -6,20 +6,18 @@
 use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::plan::Plan;
+use crate::shape::Shapes;
 use crate::stages::roots::Root;
-use crate::stages::{cut, frames, frizz, interpolate, kink, look, scale, world};
-use pelage_curves::{FrameScratch, Vec3};
+use crate::stages::{frames, look, world};
+use pelage_curves::FrameScratch;
 use pelage_strands::{StrandBuffer, StrandMeta};
 use pelage_surface::{Mesh, RootFrame};
 
 /// Arrays that are only used while a chunk is evaluated.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    /// Vertices before hairs are cut, and where each hair's start.
-    local: Vec<Vec3>,
-    starts: Vec<u32>,
+    shapes: Shapes,
     posed: Vec<RootFrame>,
-    noise: [Vec<Vec3>; 2],
     frames: FrameScratch,
 }
 
@@ -43,39 +41,16 @@ impl Plan {
         out: &mut StrandBuffer,
         clock: &mut Clock,
     ) {
-        let started = clock.start();
-        self.lay_out(capture, &mut scratch.starts, out);
-        self.interpolate(capture, scratch);
-        let started = clock.stop(Stage::Interpolate, started);
         let Scratch {
-            local,
-            starts,
-            noise,
-            ..
-        } = scratch;
-        let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
-        if let Some(fields) = &self.fields.frizz {
-            let (hairs, time) = (&capture.frizz, pose.time as f32);
-            frizz::frizz(fields, hairs, time, range, local, noise);
-        }
-        let started = clock.stop(Stage::Frizz, started);
-        if let Some(fields) = &self.fields.kink {
-            let (hairs, frames) = (&capture.kinks, &capture.frames);
-            kink::kink(fields, hairs, frames, range, local, noise);
-        }
-        for (i, &length) in capture.cuts.iter().enumerate() {
-            cut::cut(length, &mut local[range(i)]);
-        }
-        let started = clock.stop(Stage::Kink, started);
-        self.color(capture, out);
-        let started = clock.stop(Stage::Look, started);
-        let Scratch {
-            local,
-            starts,
+            shapes,
             posed,
             frames: side_by_side,
-            ..
         } = scratch;
+        self.shape(capture, pose.time as f32, shapes, clock);
+        let started = clock.start();
+        self.lay_out(capture, shapes, out);
+        self.color(capture, shapes, out);
+        let started = clock.stop(Stage::Look, started);
         let frames = if pose.surface.is_none() && !self.roots.is_displaced() {
             &capture.frames
         } else {
@@ -85,7 +60,7 @@ impl Plan {
             posed.extend(capture.roots.iter().map(frame));
             posed
         };
-        to_world(frames, local, starts, out);
+        to_world(frames, shapes, out);
         let started = clock.stop(Stage::World, started);
         if self.normals {
             let points = bytemuck::cast_slice(&out.points);
@@ -95,17 +70,11 @@ impl Plan {
         clock.stop(Stage::Frames, started);
     }
 
-    /// Counts, then prefix sums: every array of `out` gets its length here.
-    fn lay_out(&self, capture: &Capture, starts: &mut Vec<u32>, out: &mut StrandBuffer) {
+    /// Every array of `out` gets its length here.
+    fn lay_out(&self, capture: &Capture, shapes: &Shapes, out: &mut StrandBuffer) {
         out.clear();
-        starts.clear();
-        starts.push(0);
-        let (mut vertices, mut uncut) = (0, 0);
-        for (i, root) in capture.roots.iter().enumerate() {
-            let all = self.guides[root.group as usize].segments as usize + 1;
-            vertices += cut::kept(all, capture.cut(i));
-            uncut += all;
-            starts.push(uncut as u32);
+        let offsets = shapes.offsets();
+        for (root, &vertices) in capture.roots.iter().zip(&offsets[1..]) {
             out.push_meta(&StrandMeta {
                 hair_id: root.hair,
                 root_uv: root.uv.to_array(),
@@ -117,9 +86,10 @@ impl Plan {
             });
             // `push_meta` closes a strand at the points present; they come below.
             if let Some(end) = out.offsets.last_mut() {
-                *end = vertices as u32;
+                *end = vertices;
             }
         }
+        let vertices = offsets.last().map_or(0, |&end| end as usize);
         out.points.resize(vertices, [0.0; 3]);
         out.widths.resize(vertices, 0.0);
         out.colors.resize(vertices, [0.0; 3]);
@@ -129,25 +99,13 @@ impl Plan {
         }
     }
 
-    fn interpolate(&self, capture: &Capture, scratch: &mut Scratch) {
-        let Scratch { local, starts, .. } = scratch;
-        let vertices = starts.last().map_or(0, |&end| end as usize);
-        local.resize(vertices, Vec3::ZERO);
-        for (i, root) in capture.roots.iter().enumerate() {
-            let range = capture.share_starts[i] as usize..capture.share_starts[i + 1] as usize;
-            let hair = &mut local[starts[i] as usize..starts[i + 1] as usize];
-            let guides = &self.guides[root.group as usize].vertices;
-            interpolate::interpolate(guides, &capture.shares[range], hair);
-            scale::scale(capture.scale[i], hair);
-        }
-    }
-
-    fn color(&self, capture: &Capture, out: &mut StrandBuffer) {
+    fn color(&self, capture: &Capture, shapes: &Shapes, out: &mut StrandBuffer) {
         for (i, one) in capture.looks.iter().enumerate() {
             let range = out.vertices(i);
             let segments = self.guides[capture.roots[i].group as usize].segments;
             look::along(
                 one,
+                shapes.numbers(i),
                 segments,
                 capture.cut(i),
                 &mut out.colors[range.clone()],
@@ -158,11 +116,10 @@ impl Plan {
     }
 }
 
-fn to_world(frames: &[RootFrame], local: &[Vec3], starts: &[u32], out: &mut StrandBuffer) {
+fn to_world(frames: &[RootFrame], shapes: &Shapes, out: &mut StrandBuffer) {
     for (i, frame) in frames.iter().enumerate() {
         let range = out.vertices(i);
-        let hair = &local[starts[i] as usize..][..range.len()];
-        let points = bytemuck::cast_slice_mut(&mut out.points[range.clone()]);
-        world::to_world(frame, hair, points);
+        let points = bytemuck::cast_slice_mut(&mut out.points[range]);
+        world::to_world(frame, shapes.vertices(i), points);
     }
 }

@@ -28,6 +28,7 @@ mod plan;
 pub mod random;
 pub mod recipe;
 mod root_plan;
+mod shape;
 pub mod stages;
 mod texture;
 mod write_roots;

@@ -23,6 +23,8 @@ pub struct Plan {
     pub(crate) fields: Fields,
     pub(crate) seed: u64,
     pub(crate) normals: bool,
+    /// Cosine above which the bend at a vertex is too little to keep it; `None` keeps all.
+    pub(crate) thinning: Option<f32>,
     guide_count: usize,
     notes: Vec<String>,
 }
@@ -74,6 +76,7 @@ impl Plan {
             fields,
             seed: recipe.hair.seed,
             normals: recipe.output.normals,
+            thinning: Some(recipe.output.skip_threshold).filter(|&threshold| threshold < 1.0),
             guide_count: all.len(),
             notes,
         };

@@ -21,7 +21,6 @@ const fn waiting(key: &'static str, stage: &'static str) -> Waiting {
 const WAITING: &[Waiting] = &[
     waiting("interpolation.space", "interpolation in Frenet space"),
     waiting("strand.count", "the strand stage"),
-    waiting("output.skip_threshold", "the dropping of unneeded vertices"),
 ];
 
 /// Whether values along a strand can be given as ramps.
@@ -54,8 +53,8 @@ impl Recipe {
     ///
     /// let mut recipe = Recipe::default();
     /// assert!(recipe.unbuilt().is_empty());
-    /// recipe.output.skip_threshold = 0.9;
-    /// assert!(recipe.unbuilt().iter().all(|unbuilt| unbuilt.key == "output.skip_threshold"));
+    /// recipe.strand.count = 5;
+    /// assert!(recipe.unbuilt().iter().all(|unbuilt| unbuilt.key == "strand.count"));
     /// ```
     pub fn unbuilt(&self) -> Vec<Unbuilt> {
         let standard = Recipe::default();

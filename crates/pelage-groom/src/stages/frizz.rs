@@ -72,9 +72,9 @@ impl FrizzFields {
         }
     }
 
-    /// Whether any of `hairs` moves with time.
-    fn is_moving(hairs: &[Frizz]) -> bool {
-        hairs.iter().any(|hair| hair.moving > 0.0)
+    /// Whether hairs move with time.
+    pub(crate) fn is_moving(&self) -> bool {
+        !(self.moving.is_zero() || self.speed.is_zero())
     }
 }
 
@@ -84,15 +84,15 @@ pub(crate) fn frequency(fields: &[ScalarField; 3], uv: Vec2) -> Vec3 {
     Vec3::new(x, y, z)
 }
 
-/// Bends hairs at `time`; hair `i` has the vertices `range(i)` of `local`. `places` and
-/// `bends` are scratch.
+/// Bends hairs at `time`; hair `i` has the vertices `range(i)` of `local`. `places`,
+/// `bends` and `moved` are scratch.
 pub fn frizz(
     fields: &FrizzFields,
     hairs: &[Frizz],
     time: f32,
     range: impl Fn(usize) -> Range<usize>,
     local: &mut [Vec3],
-    [places, bends]: &mut [Vec<Vec3>; 2],
+    [places, bends, moved]: &mut [Vec<Vec3>; 3],
 ) {
     let noise_at = |time: f32, places: &mut Vec<Vec3>, bends: &mut Vec<Vec3>| {
         places.clear();
@@ -101,11 +101,10 @@ pub fn frizz(
         noise_vectors(fields.seed, places, bends);
     };
     noise_at(0.0, places, bends);
-    if time != 0.0 && FrizzFields::is_moving(hairs) {
-        let mut moved = Vec::new();
-        noise_at(time, places, &mut moved);
+    if time != 0.0 && fields.is_moving() {
+        noise_at(time, places, moved);
         for ((bend, moved), hair) in bends.iter_mut().zip(moved).zip(hairs) {
-            *bend = *bend * (1.0 - hair.moving) + moved * hair.moving;
+            *bend = *bend * (1.0 - hair.moving) + *moved * hair.moving;
         }
     }
     for (i, (hair, bend)) in hairs.iter().zip(&*bends).enumerate() {

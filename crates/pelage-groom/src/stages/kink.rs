@@ -67,7 +67,7 @@ pub fn kink(
     frames: &[RootFrame],
     range: impl Fn(usize) -> Range<usize>,
     local: &mut [Vec3],
-    [places, values]: &mut [Vec<Vec3>; 2],
+    [places, values, _]: &mut [Vec<Vec3>; 3],
 ) {
     places.resize(local.len(), Vec3::ZERO);
     values.resize(local.len(), Vec3::ZERO);

@@ -18,11 +18,13 @@ pub struct Look {
     pub width: [f32; 2],
 }
 
-/// Writes the values at the vertices of a hair of `segments` cut at `cut` in 0..=1; the
-/// three slices have one length, that of what is left.
+/// Writes the values at the vertices `numbers` of a hair of `segments` cut at `cut` in
+/// 0..=1, the last of which is where it is cut; the three slices have the length of
+/// `numbers`.
 #[inline]
 pub fn along(
     look: &Look,
+    numbers: &[u32],
     segments: u32,
     cut: f32,
     colors: &mut [[f32; 3]],
@@ -31,21 +33,17 @@ pub fn along(
 ) {
     let step = 1.0 / segments.max(1) as f32;
     let cut_vertex = if cut < 1.0 {
-        colors.len().saturating_sub(1)
+        numbers.len().saturating_sub(1)
     } else {
         usize::MAX
     };
     let mix = |[root, tip]: [f32; 2], t: f32| root * (1.0 - t) + tip * t;
-    for (i, ((color, opacity), width)) in colors
-        .iter_mut()
-        .zip(opacities.iter_mut())
-        .zip(widths.iter_mut())
-        .enumerate()
-    {
+    let values = colors.iter_mut().zip(opacities).zip(widths);
+    for (i, (((color, opacity), width), &number)) in values.zip(numbers).enumerate() {
         let t = if i == cut_vertex {
             cut
         } else {
-            i as f32 * step
+            number as f32 * step
         };
         *color = look.color.at(t);
         *opacity = mix(look.opacity, t);
@@ -69,7 +67,15 @@ mod tests {
             };
             let (mut colors, mut opacities, mut widths) =
                 (vec![[0.0; 3]; 6], vec![0.0; 6], vec![0.0; 6]);
-            along(&look, 5, 1.0, &mut colors, &mut opacities, &mut widths);
+            along(
+                &look,
+                &[0, 1, 2, 3, 4, 5],
+                5,
+                1.0,
+                &mut colors,
+                &mut opacities,
+                &mut widths,
+            );
             for k in 0..3 {
                 assert!((colors[0][k] - root[k]).abs() < 1e-5, "{space:?}");
                 assert!((colors[5][k] - tip[k]).abs() < 1e-5, "{space:?}");

@@ -7,8 +7,8 @@ use pelage_surface::RootFrame;
 
 /// Writes local vertices as positions in the space of `frame`.
 #[inline]
-pub fn to_world(frame: &RootFrame, local: &[Vec3], world: &mut [Vec3]) {
+pub fn to_world(frame: &RootFrame, local: impl Iterator<Item = Vec3>, world: &mut [Vec3]) {
     for (out, v) in world.iter_mut().zip(local) {
-        *out = frame.position + frame.vector(*v);
+        *out = frame.position + frame.vector(v);
     }
 }

@@ -32,6 +32,7 @@ const NOISY: &str = "
     roots.displacement = { value = 0.1, map = 'length.png' }
     frizz = { root = 0.1, tip = { value = 0.3, map = 'length.png' }, frequency = [2, 3, 2] }
     cut.length = { map = 'length.png' }
+    output.skip_threshold = 0.9
     kink = { root = 0.01, tip = 0.05, frequency = [20, { value = 30, map = 'length.png' }, 20] }
 ";
 

@@ -347,6 +347,53 @@ fn a_hair_cut_at_c_ends_at_its_point_c_and_keeps_what_is_before() {
 }
 
 #[test]
+fn thinning_drops_vertices_where_hairs_are_straight_the_same_ones_in_all_frames() {
+    let more = "output.skip_threshold = 0.9
+        frizz = { tip = 0.3, animation = { amount = 1.0, speed = 0.3 } }";
+    let thin = Fixture {
+        more,
+        ..Fixture::default()
+    }
+    .plan();
+    let all = Fixture {
+        more: "frizz.tip = 0.3",
+        ..Fixture::default()
+    };
+    let (thinned, whole) = (collect(&thin, 0..2000, 2), collect(&all.plan(), 0..2000, 2));
+    assert!(thinned.points.len() * 10 < whole.points.len() * 9);
+    for i in 0..whole.len() {
+        let mut left = thinned.strand_points(i).iter();
+        let widths = &thinned.widths[thinned.vertices(i)];
+        let points = whole.strand_points(i);
+        // What is left are vertices of the whole hair, in order, with their widths.
+        let mut next = left.next();
+        let mut found = 0;
+        for (point, width) in points.iter().zip(&whole.widths[whole.vertices(i)]) {
+            if next == Some(point) {
+                assert_eq!(*width, widths[found]);
+                found += 1;
+                next = left.next();
+            }
+        }
+        assert_eq!(next, None, "hair {i}");
+        assert_eq!(thinned.strand_points(i)[0], points[0]);
+        assert_eq!(widths[found - 1], 0.0);
+    }
+    let (mut capture, mut clock) = (Capture::default(), Clock::default());
+    let (mut scratch, mut out) = (Scratch::default(), StrandBuffer::new());
+    thin.capture(0..2000, &mut capture, &mut clock);
+    for time in [1.0, 5.0, 40.0] {
+        let pose = Pose {
+            surface: None,
+            time,
+        };
+        thin.evaluate(&capture, pose, &mut scratch, &mut out, &mut clock);
+        assert_eq!(out.offsets, thinned.offsets);
+        assert!(out.points != thinned.points);
+    }
+}
+
+#[test]
 fn animated_frizz_moves_with_time_and_what_does_not_move_stays() {
     let at = |more, time| {
         let plan = Fixture {
