@@ -15,8 +15,10 @@ pub enum Stage {
     Interpolate,
     /// Frizz.
     Frizz,
-    /// Kink, and the cut.
+    /// Kink.
     Kink,
+    /// Cutting, and which vertices stay.
+    Thin,
     /// Colours, opacities and widths along the hair.
     Look,
     /// Root frames of the pose, and positions.
@@ -29,13 +31,14 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order in which they run.
-    pub const ALL: [Stage; 10] = [
+    pub const ALL: [Stage; 11] = [
         Stage::Roots,
         Stage::Weights,
         Stage::Maps,
         Stage::Interpolate,
         Stage::Frizz,
         Stage::Kink,
+        Stage::Thin,
         Stage::Look,
         Stage::World,
         Stage::Frames,
@@ -51,6 +54,7 @@ impl Stage {
             Stage::Interpolate => "interpolate",
             Stage::Frizz => "frizz",
             Stage::Kink => "kink",
+            Stage::Thin => "thin",
             Stage::Look => "look",
             Stage::World => "world",
             Stage::Frames => "frames",

@@ -59,11 +59,11 @@ impl Plan {
         let moves = self.fields.frizz.as_ref().is_some_and(|f| f.is_moving());
         if self.thinning.is_some() && moves && time != 0.0 {
             self.bend(capture, 0.0, shapes, clock);
-            self.choose(capture, shapes);
+            self.choose(capture, shapes, clock);
             self.bend(capture, time, shapes, clock);
         } else {
             self.bend(capture, time, shapes, clock);
-            self.choose(capture, shapes);
+            self.choose(capture, shapes, clock);
         }
     }
 
@@ -86,10 +86,11 @@ impl Plan {
             let (hairs, frames) = (&capture.kinks, &capture.frames);
             kink::kink(fields, hairs, frames, range, vertices, noise);
         }
+        let started = clock.stop(Stage::Kink, started);
         for (i, &length) in capture.cuts.iter().enumerate() {
             cut::cut(length, &mut vertices[range(i)]);
         }
-        clock.stop(Stage::Kink, started);
+        clock.stop(Stage::Thin, started);
     }
 
     fn interpolate(&self, capture: &Capture, shapes: &mut Shapes) {
@@ -113,7 +114,8 @@ impl Plan {
         }
     }
 
-    fn choose(&self, capture: &Capture, shapes: &mut Shapes) {
+    fn choose(&self, capture: &Capture, shapes: &mut Shapes, clock: &mut Clock) {
+        let started = clock.start();
         shapes.kept.clear();
         shapes.kept_starts.clear();
         shapes.kept_starts.push(0);
@@ -129,5 +131,6 @@ impl Plan {
             }
             shapes.kept_starts.push(shapes.kept.len() as u32);
         }
+        clock.stop(Stage::Thin, started);
     }
 }

@@ -31,7 +31,7 @@ little where others have the second core.
 Of the steps of document 004's tables 4.3 and 4.4, *generate sample* and *hair root* are
 `roots`; *interpolate* is `weights` and `interpolate`; *frizz*, *kink* and *curve frame* are
 `frizz`, `kink` and `frames`; *other properties* are `maps` and `look`; *finalizing hair*
-is `world`; *output hair* is `sink`.
+is `thin` and `world`; *output hair* is `sink`.
 ";
 
 /// Everything that was measured.
