@@ -180,11 +180,18 @@ impl ImageMap {
         }
     }
 
+    /// `uv` in texels to the right and down from the centre of the first. f64: at u = 10
+    /// an f32 holds only a sixteenth of a texel of a large map.
+    #[inline(always)]
+    pub(crate) fn texels_at(&self, uv: [f32; 2]) -> [f64; 2] {
+        let [u, v] = uv.map(f64::from);
+        let [width, height] = [self.width, self.height].map(f64::from);
+        [u * width - 0.5, (1.0 - v) * height - 0.5]
+    }
+
     #[inline(always)]
     pub(crate) fn around(&self, u: f32, v: f32, wrap: Wrap) -> Around {
-        // f64: at u = 10 an f32 holds only a sixteenth of a texel of a large map.
-        let x = u as f64 * self.width as f64 - 0.5;
-        let y = (1.0 - v as f64) * self.height as f64 - 0.5;
+        let [x, y] = self.texels_at([u, v]);
         let [x0, y0] = [x, y].map(floor);
         Around {
             columns: [x0, x0 + 1.0].map(|x| wrapped(x, self.width, wrap)),
@@ -209,17 +216,20 @@ impl Around {
         self.blend(|i, j| texel(self.columns[i], self.rows[j]))
     }
 
-    /// Mixes the four values `at(i, j)` of column `i` and row `j` of these. Written as
-    /// differences so that equal values give that very value.
+    /// Mixes the four values `at(i, j)` of column `i` and row `j` of these.
     #[inline(always)]
     pub(crate) fn blend(&self, at: impl Fn(usize, usize) -> f32) -> f32 {
-        let row = |j| {
-            let (a, b) = (at(0, j), at(1, j));
-            a + (b - a) * self.across
-        };
-        let (a, b) = (row(0), row(1));
-        a + (b - a) * self.down
+        let four = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
+        bilinear(four, self.across, self.down)
     }
+}
+
+/// Mixes four values, two of a row and two of the row below. Written as differences so
+/// that equal values give that very value.
+#[inline(always)]
+pub(crate) fn bilinear([a, b, c, d]: [f32; 4], across: f32, down: f32) -> f32 {
+    let (above, below) = (a + (b - a) * across, c + (d - c) * across);
+    above + (below - above) * down
 }
 
 /// The largest integer that is not above `x`: `f64::floor`, which is a call where the

@@ -5,6 +5,7 @@
 //! equal density are merged again. A piece is named by its place in that tree (0 the
 //! whole triangle, 4i + 1 … 4i + 4 its parts), and its corners come from a table.
 
+use crate::window::place;
 use crate::{ImageMap, Mesh, Wrap};
 use fearless_simd::{Level, dispatch};
 use pelage_curves::{Vec2, Vec3};
@@ -34,12 +35,8 @@ pub(crate) trait DensityField: Sync {
     /// Appends [`at`](Self::at) for each of `weights` of the second and third of `corners`.
     #[inline(always)]
     fn read(&self, corners: [Vec2; 3], weights: &[[f32; 2]], values: &mut Vec<f32>) {
-        let [a, b, c] = corners;
-        values.extend(
-            weights
-                .iter()
-                .map(|&[u, v]| self.at(a * (1.0 - u - v) + b * u + c * v)),
-        );
+        let places = weights.iter().map(|&weights| place(corners, weights));
+        values.extend(places.map(|uv| self.at(uv)));
     }
 }
 
@@ -291,10 +288,8 @@ impl<D: DensityField> Cutter<'_, D> {
         level.clear();
         let within = depth.min(TABLE_DEPTH);
         for base in self.table.parts(depth - within) {
-            let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[p, q]| {
-                let [u, v] = base.at(p, q);
-                uv[0] * (1.0 - u - v) + uv[1] * u + uv[2] * v
-            });
+            let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+            let corners = corners.map(|[p, q]| place(uv, base.at(p, q)));
             let centres = self.table.centres(within);
             self.density.read(corners, centres, level);
         }

@@ -4,12 +4,19 @@
 //! from the first of them, which leaves few digits to keep (f32 will do), and the
 //! arithmetic of many places runs at once.
 
-use crate::image_map::{floor, wrapped};
+use crate::image_map::{bilinear, floor, wrapped};
 use crate::{ImageMap, Wrap};
 use pelage_curves::Vec2;
 
 /// Places that go through the arithmetic together.
 const LANES: usize = 16;
+
+/// The place in a triangle of texture space that has the weights `u` and `v` of its second
+/// and third corner.
+#[inline(always)]
+pub(crate) fn place([a, b, c]: [Vec2; 3], [u, v]: [f32; 2]) -> Vec2 {
+    a * (1.0 - u - v) + b * u + c * v
+}
 
 impl ImageMap {
     /// Appends [`sample`](Self::sample) at places of a triangle of texture space: for each
@@ -23,21 +30,17 @@ impl ImageMap {
         wrap: Wrap,
         values: &mut Vec<f32>,
     ) {
-        let [a, b, c] = corners;
-        let Some((window, [a_in, b_in, c_in])) = self.window(corners, channel, wrap) else {
-            values.extend(weights.iter().map(|&[u, v]| {
-                let at = a * (1.0 - u - v) + b * u + c * v;
-                self.sample(at.x, at.y, channel, wrap)
+        let Some((window, inside)) = self.window(corners, channel, wrap) else {
+            values.extend(weights.iter().map(|&weights| {
+                let uv = place(corners, weights);
+                self.sample(uv.x, uv.y, channel, wrap)
             }));
             return;
         };
         for row in weights.chunks(LANES) {
-            let weight = |k: usize| row[k.min(row.len() - 1)];
             let [mut x, mut y] = [[0.0; LANES]; 2];
             for k in 0..LANES {
-                let [u, v] = weight(k);
-                let at = a_in * (1.0 - u - v) + b_in * u + c_in * v;
-                [x[k], y[k]] = at.to_array();
+                [x[k], y[k]] = place(inside, row[k.min(row.len() - 1)]).to_array();
             }
             values.extend_from_slice(&window.sample(&x, &y)[..row.len()]);
         }
@@ -53,10 +56,7 @@ impl ImageMap {
         wrap: Wrap,
     ) -> Option<(Window<'_>, [Vec2; 3])> {
         let size = [self.width(), self.height()];
-        let texels = corners.map(|uv| {
-            let [u, v] = uv.to_array().map(f64::from);
-            [u * size[0] as f64 - 0.5, (1.0 - v) * size[1] as f64 - 0.5]
-        });
+        let texels = corners.map(|uv| self.texels_at(uv.to_array()));
         let (mut first, mut base, mut last) = ([0; 2], [0.0; 2], [0; 2]);
         for k in 0..2 {
             let [a, b, c] = texels.map(|t| t[k]);
@@ -116,14 +116,8 @@ impl Window<'_> {
             around[2][k] = four[self.stride];
             around[3][k] = four[self.stride + self.channels];
         }
-        let [a, b, c, d] = around;
         for k in 0..LANES {
-            // As differences, so that equal texels give that very value.
-            let (top, bottom) = (
-                a[k] + (b[k] - a[k]) * across[k],
-                c[k] + (d[k] - c[k]) * across[k],
-            );
-            values[k] = top + (bottom - top) * down[k];
+            values[k] = bilinear(around.each_ref().map(|row| row[k]), across[k], down[k]);
         }
         values
     }
