@@ -5,9 +5,9 @@
 use crate::clock::{Clock, Stage};
 use crate::color::ColorMix;
 use crate::neighbors::Neighbors;
+use crate::noise_fields::HairNoise;
 use crate::plan::{Fields, Plan};
 use crate::stages::frizz::Frizz;
-use crate::stages::kink::Kink;
 use crate::stages::look::Look;
 use crate::stages::roots::{Root, root};
 use crate::stages::scale;
@@ -56,7 +56,7 @@ pub struct Capture {
     /// Empty where the recipe has none.
     pub(crate) frizz: Vec<Frizz>,
     /// Empty where the recipe has none.
-    pub(crate) kinks: Vec<Kink>,
+    pub(crate) kinks: Vec<HairNoise>,
     dropped: Dropped,
     hairs: Vec<u64>,
     places: Vec<SurfacePoint>,
@@ -100,10 +100,12 @@ impl Plan {
     /// [`capture`](Self::capture).
     pub fn capture_listed(&self, hairs: &[u64], capture: &mut Capture, clock: &mut Clock) {
         self.capture_placed(capture, clock, |all, places| {
-            for &hair in hairs {
-                let one = self.roots.rooted(hair..hair.saturating_add(1));
-                self.roots.places(one.clone(), places);
-                all.extend(one);
+            let rooted = hairs
+                .iter()
+                .filter_map(|&hair| Some((hair, self.roots.place(hair)?)));
+            for (hair, place) in rooted {
+                all.push(hair);
+                places.push(place);
             }
         });
     }
@@ -141,7 +143,7 @@ impl Plan {
         }
         capture.kinks.clear();
         if let Some(fields) = kink {
-            let hairs = capture.roots.iter().map(|root| fields.at(root));
+            let hairs = capture.roots.iter().map(|root| fields.at(root.uv));
             capture.kinks.extend(hairs);
         }
         capture.looks.clear();

@@ -7,9 +7,10 @@ use crate::guide::{self, Guide};
 use crate::guide_set::GuideSet;
 use crate::maps::{ColorField, FieldMaker, ScalarField};
 use crate::neighbors::Sharing;
+use crate::noise_fields::NoiseFields;
+use crate::random::Channel;
 use crate::recipe::{self, GuideSource, Recipe};
 use crate::stages::frizz::FrizzFields;
-use crate::stages::kink::KinkFields;
 use crate::stages::tint::Tint;
 use crate::{PlanError, RootPlan, grow, root_plan};
 use pelage_surface::Mesh;
@@ -37,7 +38,7 @@ pub(crate) struct Fields {
     /// `None` where nothing is cut.
     pub cut: Option<ScalarField>,
     pub frizz: Option<FrizzFields>,
-    pub kink: Option<KinkFields>,
+    pub kink: Option<NoiseFields>,
     pub color: [ColorField; 2],
     pub color_space: ColorSpace,
     pub tint: Tint,
@@ -159,7 +160,13 @@ impl Fields {
             scale: maker.scalar("scale.amount", &r.scale.amount)?,
             scale_random: maker.scalar("scale.random", &r.scale.random)?,
             frizz: FrizzFields::new(&r.frizz, maker, r.hair.seed)?,
-            kink: KinkFields::new(&r.kink, maker, r.hair.seed)?,
+            kink: NoiseFields::new(
+                "kink",
+                &r.kink.frequency,
+                [&r.kink.root, &r.kink.tip],
+                maker,
+                (r.hair.seed, Channel::Kink),
+            )?,
             color: [
                 maker.color("color.root", &r.color.root)?,
                 maker.color("color.tip", &r.color.tip)?,

@@ -127,6 +127,14 @@ impl RootPlan {
         }
     }
 
+    /// The place of `hair`, if it is [`rooted`](Self::rooted).
+    pub(crate) fn place(&self, hair: u64) -> Option<SurfacePoint> {
+        match &self.blue_noise {
+            Some(made) => (hair < made.len() as u64).then(|| made.root(hair)),
+            None => self.sampler.as_ref().map(|sampler| sampler.root(hair)),
+        }
+    }
+
     /// Position and frame of a root on `surface`, the mesh at rest or posed, displaced as
     /// the recipe says; `uv` are the texture coordinates of `place`.
     pub(crate) fn frame(&self, surface: &Mesh, place: &SurfacePoint, uv: Vec2) -> RootFrame {

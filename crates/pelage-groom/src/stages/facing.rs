@@ -17,6 +17,7 @@
 //! Distances in the unit of the mesh. Limits: where the last guide that faces the root
 //! turns away, weights jump to those by distance alone, as the errata ask.
 
+use super::weights::{first_alone, normalise};
 use crate::locator::Near;
 
 /// S · T_k below which a guide recedes: small, so that a coat that leans is shaped by the
@@ -89,8 +90,7 @@ pub fn weigh(near: &[Faced], wanted: usize, exponent: f32, weights: &mut Vec<f32
         weights.clear();
         weights.extend(near.iter().map(bare));
         if !normalise(weights) {
-            weights.fill(0.0);
-            weights.iter_mut().take(1).for_each(|w| *w = 1.0);
+            first_alone(weights);
         }
     }
 }
@@ -103,16 +103,6 @@ fn power(base: f32, exponent: f32) -> f32 {
     } else {
         libm::powf(base, exponent)
     }
-}
-
-/// Divides by the sum, if there is one to divide by.
-fn normalise(weights: &mut [f32]) -> bool {
-    let sum: f32 = weights.iter().sum();
-    let has_sum = sum > 0.0 && sum.is_finite();
-    if has_sum {
-        weights.iter_mut().for_each(|w| *w /= sum);
-    }
-    has_sum
 }
 
 #[cfg(test)]

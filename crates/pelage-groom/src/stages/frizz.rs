@@ -7,24 +7,23 @@
 //! normal points into the skin, so that frizz does not lengthen hair. The root stays.
 //! Local space, unit of the mesh; frequencies per unit of the mesh, time in frames.
 
+use crate::PlanError;
 use crate::maps::{FieldMaker, ScalarField};
 use crate::noise::noise_vectors;
-use crate::random::{Channel, noise_seed};
+use crate::noise_fields::NoiseFields;
+use crate::random::Channel;
 use crate::recipe;
-use crate::{PlanError, stages::roots::Root};
-use pelage_curves::{Vec2, Vec3};
+use crate::stages::roots::Root;
+use pelage_curves::Vec3;
 use std::ops::Range;
 
 /// The properties of frizz over the surface.
 #[derive(Clone, Debug)]
 pub struct FrizzFields {
-    frequency: [ScalarField; 3],
-    root: ScalarField,
-    tip: ScalarField,
+    noise: NoiseFields,
     moving: ScalarField,
     speed: ScalarField,
     direction: Vec3,
-    seed: u32,
 }
 
 /// The frizz of one hair.
@@ -47,28 +46,27 @@ impl FrizzFields {
         maker: &mut FieldMaker,
         seed: u64,
     ) -> Result<Option<Self>, PlanError> {
-        let fields = Self {
-            frequency: maker.frequencies("frizz.frequency", &frizz.frequency)?,
-            root: maker.scalar("frizz.root", &frizz.root)?,
-            tip: maker.scalar("frizz.tip", &frizz.tip)?,
-            moving: maker.scalar("frizz.animation.amount", &frizz.animation.amount)?,
-            speed: maker.scalar("frizz.animation.speed", &frizz.animation.speed)?,
+        let (ends, noise) = ([&frizz.root, &frizz.tip], (seed, Channel::Frizz));
+        let noise = NoiseFields::new("frizz", &frizz.frequency, ends, maker, noise)?;
+        let moving = maker.scalar("frizz.animation.amount", &frizz.animation.amount)?;
+        let speed = maker.scalar("frizz.animation.speed", &frizz.animation.speed)?;
+        Ok(noise.map(|noise| Self {
+            noise,
+            moving,
+            speed,
             direction: Vec3::from(frizz.animation.direction),
-            seed: noise_seed(seed, Channel::Frizz),
-        };
-        let bends = !(fields.root.is_zero() && fields.tip.is_zero());
-        Ok(bends.then_some(fields))
+        }))
     }
 
     /// The frizz of the hair that grows at `root`.
     pub(crate) fn at(&self, root: &Root) -> Frizz {
-        let uv: Vec2 = root.uv;
+        let noise = self.noise.at(root.uv);
         Frizz {
-            place: frequency(&self.frequency, uv) * root.rest,
-            velocity: self.direction * self.speed.at(uv),
-            moving: self.moving.at(uv).clamp(0.0, 1.0),
-            root: self.root.at(uv).max(0.0),
-            tip: self.tip.at(uv).max(0.0),
+            place: noise.frequency * root.rest,
+            velocity: self.direction * self.speed.at(root.uv),
+            moving: self.moving.at(root.uv).clamp(0.0, 1.0),
+            root: noise.root,
+            tip: noise.tip,
         }
     }
 
@@ -76,12 +74,6 @@ impl FrizzFields {
     pub(crate) fn is_moving(&self) -> bool {
         !(self.moving.is_zero() || self.speed.is_zero())
     }
-}
-
-/// Frequencies along the axes at `uv`, at least 0.
-pub(crate) fn frequency(fields: &[ScalarField; 3], uv: Vec2) -> Vec3 {
-    let [x, y, z] = fields.each_ref().map(|field| field.at(uv).max(0.0));
-    Vec3::new(x, y, z)
 }
 
 /// Bends hairs at `time`; hair `i` has the vertices `range(i)` of `local`. `places`,
@@ -98,7 +90,7 @@ pub fn frizz(
         places.clear();
         places.extend(hairs.iter().map(|hair| hair.place + hair.velocity * time));
         bends.resize(hairs.len(), Vec3::ZERO);
-        noise_vectors(fields.seed, places, bends);
+        noise_vectors(fields.noise.seed, places, bends);
     };
     noise_at(0.0, places, bends);
     if time != 0.0 && fields.is_moving() {

@@ -17,6 +17,7 @@
 //! areas are differences. Limits: where the surface bends much within a guide's width,
 //! linear functions come back nearly only.
 
+use super::weights::{first_alone, normalise};
 use pelage_curves::Vec3;
 use pelage_curves::glam::{DVec2, DVec3};
 use pelage_surface::RootFrame;
@@ -133,13 +134,9 @@ impl Cell {
         for k in (0..sites.len()).rev() {
             weights[k] = (self.part(sites, k, weights) / whole) as f32;
         }
-        let sum: f32 = weights.iter().sum();
-        if sum > 0.0 && sum.is_finite() {
-            weights.iter_mut().for_each(|w| *w /= sum);
-        } else {
-            // A cell too small or too large for numbers: the nearest alone.
-            weights.fill(0.0);
-            weights.iter_mut().take(1).for_each(|w| *w = 1.0);
+        if !normalise(weights) {
+            // A cell too small or too large for numbers.
+            first_alone(weights);
         }
     }
 

@@ -48,20 +48,31 @@ pub fn inverse_distance(near: &[Near], wanted: usize, weights: &mut Vec<f32>) {
     }
     let enlarge = if near.len() <= wanted { ENLARGED } else { 1.0 };
     let radius = last.square.sqrt() * enlarge;
-    let mut sum = 0.0;
     for guide in near {
         let distance = guide.square.sqrt();
         let weight = ((radius - distance) / (radius * distance)).max(0.0);
         weights.push(weight * weight);
-        sum += weight * weight;
     }
-    if sum > 0.0 && sum.is_finite() {
+    if !normalise(weights) {
+        weights.fill(1.0 / near.len() as f32);
+    }
+}
+
+/// Divides `weights` by their sum, if there is one to divide by; tells whether there is.
+#[inline]
+pub(super) fn normalise(weights: &mut [f32]) -> bool {
+    let sum: f32 = weights.iter().sum();
+    let has_sum = sum > 0.0 && sum.is_finite();
+    if has_sum {
         weights.iter_mut().for_each(|w| *w /= sum);
-    } else {
-        weights
-            .iter_mut()
-            .for_each(|w| *w = 1.0 / near.len() as f32);
     }
+    has_sum
+}
+
+/// Leaves all weight to the first guide, the nearest.
+pub(super) fn first_alone(weights: &mut [f32]) {
+    weights.fill(0.0);
+    weights.iter_mut().take(1).for_each(|w| *w = 1.0);
 }
 
 /// Cosine and sine of the turn that carries local coordinates at `guide` to `hair`.

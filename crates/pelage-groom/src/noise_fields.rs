@@ -1,0 +1,59 @@
+//! What frizz and kink have in common: the frequencies of a noise along the axes, and
+//! amounts at root and tip.
+
+use crate::PlanError;
+use crate::maps::{FieldMaker, ScalarField};
+use crate::random::{Channel, noise_seed};
+use crate::recipe::ScalarProperty;
+use pelage_curves::{Vec2, Vec3};
+
+/// A noise over the surface.
+#[derive(Clone, Debug)]
+pub struct NoiseFields {
+    frequency: [ScalarField; 3],
+    root: ScalarField,
+    tip: ScalarField,
+    /// Which noise it is.
+    pub(crate) seed: u32,
+}
+
+/// The noise of one hair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HairNoise {
+    /// Along the axes, per unit of the mesh; at least 0.
+    pub frequency: Vec3,
+    /// Amount at the root, at least 0.
+    pub root: f32,
+    /// Amount at the tip, at least 0.
+    pub tip: f32,
+}
+
+impl NoiseFields {
+    /// Reads the section `key` of a recipe; `None` where both amounts are 0.
+    pub(crate) fn new(
+        key: &str,
+        frequency: &[ScalarProperty; 3],
+        [root, tip]: [&ScalarProperty; 2],
+        maker: &mut FieldMaker,
+        (seed, channel): (u64, Channel),
+    ) -> Result<Option<Self>, PlanError> {
+        let fields = Self {
+            frequency: maker.frequencies(&format!("{key}.frequency"), frequency)?,
+            root: maker.scalar(&format!("{key}.root"), root)?,
+            tip: maker.scalar(&format!("{key}.tip"), tip)?,
+            seed: noise_seed(seed, channel),
+        };
+        let acts = !(fields.root.is_zero() && fields.tip.is_zero());
+        Ok(acts.then_some(fields))
+    }
+
+    /// The noise of a hair with its root at `uv`.
+    pub(crate) fn at(&self, uv: Vec2) -> HairNoise {
+        let at = |field: &ScalarField| field.at(uv).max(0.0);
+        HairNoise {
+            frequency: Vec3::from(self.frequency.each_ref().map(at)),
+            root: at(&self.root),
+            tip: at(&self.tip),
+        }
+    }
+}
