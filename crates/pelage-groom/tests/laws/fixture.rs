@@ -152,15 +152,20 @@ impl Fixture<'_> {
     }
 }
 
+/// Asks for `hairs` on `threads` threads, as a still.
+pub fn request(hairs: Range<u64>, threads: usize) -> Request {
+    Request {
+        hairs,
+        threads,
+        frame: 0.0,
+        info: StreamInfo::default(),
+    }
+}
+
 /// The strands of `hairs` by the threaded run.
 pub fn collect(plan: &Plan, hairs: Range<u64>, threads: usize) -> StrandBuffer {
     let mut sink = Collect::default();
-    let request = Request {
-        frame: 0.0,
-        hairs,
-        threads,
-        info: StreamInfo::default(),
-    };
+    let request = request(hairs, threads);
     generate(plan, &request, &mut |_| Ok(None), &mut sink, &mut |_| true).unwrap();
     sink.strands
 }

@@ -7,9 +7,9 @@ mod fixture;
 mod interpolation;
 mod look;
 
-use fixture::{Fixture, collect, kinds, moved, strands};
+use fixture::{Fixture, collect, kinds, moved, request, strands};
 use pelage_curves::{Vec3, catmull_rom};
-use pelage_groom::{Capture, Clock, Plan, Pose, Request, Scratch, generate, write_roots};
+use pelage_groom::{Capture, Clock, Plan, Pose, Scratch, generate, write_roots};
 use pelage_strands::{
     Amount, BoundsSink, Collect, Sink, SinkError, StrandBuffer, StreamInfo, validate,
 };
@@ -134,12 +134,7 @@ fn law_5_a_plan_that_was_made_gives_sound_strands() {
 fn law_6_bounds_are_a_sink_and_hold_the_curves() {
     let plan = plan();
     let mut bounds = BoundsSink::default();
-    let request = Request {
-        frame: 0.0,
-        hairs: 0..1000,
-        threads: 2,
-        info: StreamInfo::default(),
-    };
+    let request = request(0..1000, 2);
     generate(&plan, &request, &mut |_| Ok(None), &mut bounds, &mut |_| {
         true
     })
@@ -206,12 +201,7 @@ fn roots_by_themselves_are_those_of_the_hairs() {
         let plan = fixture.plan();
         let hairs = collect(&plan, 0..5000, 1);
         let mut roots = Collect::default();
-        let request = Request {
-            frame: 0.0,
-            hairs: 0..5000,
-            threads: 2,
-            info: StreamInfo::default(),
-        };
+        let request = request(0..5000, 2);
         write_roots(plan.roots(), &request, None, &mut roots, &mut |_| true).unwrap();
         let roots = roots.strands;
         assert_eq!(roots.hair_id, hairs.hair_id);
@@ -505,12 +495,7 @@ fn a_failing_sink_ends_the_run_with_its_words() {
         }
     }
     for threads in [1, 4] {
-        let request = Request {
-            frame: 0.0,
-            hairs: 0..50_000,
-            threads,
-            info: StreamInfo::default(),
-        };
+        let request = request(0..50_000, threads);
         let plan = Fixture {
             count: 50_000,
             ..Fixture::default()
@@ -544,12 +529,7 @@ fn what_a_run_announces_is_what_comes_where_no_hair_is_left_out() {
         }
     }
     let mut sink = Announced::default();
-    let request = Request {
-        frame: 0.0,
-        hairs: 100..1500,
-        threads: 1,
-        info: StreamInfo::default(),
-    };
+    let request = request(100..1500, 1);
     let report = generate(&plan(), &request, &mut |_| Ok(None), &mut sink, &mut |_| {
         true
     })

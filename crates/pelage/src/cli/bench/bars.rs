@@ -1,6 +1,6 @@
 //! Bars cut into parts, for the results, as SVG.
 
-use super::plot::COLORS;
+use super::plot::{COLORS, legend};
 use anyhow::{Result, anyhow};
 use plotters::coord::ranged1d::SegmentValue;
 use plotters::prelude::*;
@@ -58,12 +58,7 @@ impl Bars<'_> {
                     Rectangle::new([(x, y - 5), (x + 12, y + 5)], color.filled())
                 });
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::MiddleRight)
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.2))
-            .draw()?;
+        legend(&mut chart, SeriesLabelPosition::MiddleRight)?;
         root.present()?;
         drop(chart);
         drop(root);

@@ -1,6 +1,7 @@
 //! What the generation of a scene costs: cold, with everything made, and warm, where
 //! what was captured of the rest pose is kept and only a pose is evaluated.
 
+use super::measure::fastest;
 use super::scenes::Scene;
 use crate::cli::stats::{forget_peak_memory, peak_memory};
 use anyhow::Result;
@@ -107,7 +108,7 @@ pub fn captured(plan: &Plan) -> Vec<Capture> {
 /// Seconds of the fastest run that evaluated all of `captures` into the null sink.
 pub fn warm(plan: &Plan, captures: &[Capture], threads: usize, runs: usize) -> f64 {
     let share = captures.len().div_ceil(threads).max(1);
-    let run = |_| {
+    fastest(runs, || {
         let started = Instant::now();
         std::thread::scope(|scope| {
             for captures in captures.chunks(share) {
@@ -115,8 +116,7 @@ pub fn warm(plan: &Plan, captures: &[Capture], threads: usize, runs: usize) -> f
             }
         });
         started.elapsed().as_secs_f64()
-    };
-    (0..runs).map(run).fold(f64::INFINITY, f64::min)
+    })
 }
 
 fn evaluate(plan: &Plan, captures: &[Capture]) {
@@ -151,7 +151,7 @@ pub fn copying(threads: usize, bytes: usize, runs: usize) -> f64 {
     let mut pairs: Vec<_> = (0..threads)
         .map(|_| (vec![1u8; each], vec![0u8; each]))
         .collect();
-    let mut run = |_| {
+    let seconds = fastest(runs, || {
         let started = Instant::now();
         std::thread::scope(|scope| {
             for (source, target) in &mut pairs {
@@ -162,7 +162,6 @@ pub fn copying(threads: usize, bytes: usize, runs: usize) -> f64 {
             }
         });
         started.elapsed().as_secs_f64()
-    };
-    let seconds = (0..runs).map(&mut run).fold(f64::INFINITY, f64::min);
+    });
     (2 * each * threads) as f64 / seconds
 }

@@ -31,6 +31,11 @@ impl Row {
     }
 }
 
+/// The seconds of the fastest of `runs` runs, each of which tells its own.
+pub fn fastest(runs: usize, mut run: impl FnMut() -> f64) -> f64 {
+    (0..runs).map(|_| run()).fold(f64::INFINITY, f64::min)
+}
+
 /// How much to measure.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
@@ -47,8 +52,7 @@ impl Effort {
     /// `draw`, which tells the seconds it took.
     pub fn best(&self, mut draw: impl FnMut(u64) -> f64) -> (u64, f64) {
         let samples = self.samples_for(&mut draw);
-        let runs = (0..self.runs).map(|_| draw(samples));
-        (samples, runs.fold(f64::INFINITY, f64::min))
+        (samples, fastest(self.runs, || draw(samples)))
     }
 
     fn samples_for(&self, draw: &mut impl FnMut(u64) -> f64) -> u64 {

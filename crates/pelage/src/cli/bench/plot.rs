@@ -1,6 +1,8 @@
 //! Plots for the results, as SVG.
 
 use anyhow::{Result, anyhow};
+use plotters::coord::CoordTranslate;
+use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::*;
 
 /// A named run of points.
@@ -71,15 +73,27 @@ fn draw(axes: &Axes, lines: &[Line], text: &mut String) -> Result<(), Box<dyn st
             .map(|&p| Circle::new(p, 3, color.filled()));
         chart.draw_series(marks)?;
     }
-    chart
-        .configure_series_labels()
-        // Where errors that fall, and rates that fall off, leave room.
-        .position(SeriesLabelPosition::LowerLeft)
-        .background_style(WHITE.mix(0.85))
-        .border_style(BLACK.mix(0.2))
-        .draw()?;
+    // Where errors that fall, and rates that fall off, leave room.
+    legend(&mut chart, SeriesLabelPosition::LowerLeft)?;
     root.present()?;
     drop(chart);
     drop(root);
     Ok(())
+}
+
+/// Draws the names of the series.
+pub fn legend<'a, B, C>(
+    chart: &mut ChartContext<'a, B, C>,
+    position: SeriesLabelPosition,
+) -> Result<(), DrawingAreaErrorKind<B::ErrorType>>
+where
+    B: DrawingBackend + 'a,
+    C: CoordTranslate,
+{
+    chart
+        .configure_series_labels()
+        .position(position)
+        .background_style(WHITE.mix(0.85))
+        .border_style(BLACK.mix(0.2))
+        .draw()
 }
