@@ -11,6 +11,7 @@ use crate::stages::frizz::Frizz;
 use crate::stages::look::Look;
 use crate::stages::roots::{Root, root};
 use crate::stages::scale;
+use crate::stages::strand::{Bundle, Fiber};
 use crate::stages::weights::{Share, turn};
 use pelage_surface::{RootFrame, SurfacePoint};
 use std::ops::Range;
@@ -57,6 +58,10 @@ pub struct Capture {
     pub(crate) frizz: Vec<Frizz>,
     /// Empty where the recipe has none.
     pub(crate) kinks: Vec<HairNoise>,
+    /// Empty where hairs are single.
+    pub(crate) bundles: Vec<Bundle>,
+    /// Those of a hair follow one another. Empty where hairs are single.
+    pub(crate) fibers: Vec<Fiber>,
     dropped: Dropped,
     hairs: Vec<u64>,
     places: Vec<SurfacePoint>,
@@ -135,7 +140,12 @@ impl Plan {
         let started = clock.stop(Stage::Roots, started);
         self.weigh(capture);
         let started = clock.stop(Stage::Weights, started);
-        let Fields { frizz, kink, .. } = &self.fields;
+        let Fields {
+            frizz,
+            kink,
+            strand,
+            ..
+        } = &self.fields;
         capture.frizz.clear();
         if let Some(fields) = frizz {
             let hairs = capture.roots.iter().map(|root| fields.at(root));
@@ -145,6 +155,17 @@ impl Plan {
         if let Some(fields) = kink {
             let hairs = capture.roots.iter().map(|root| fields.at(root.uv));
             capture.kinks.extend(hairs);
+        }
+        capture.bundles.clear();
+        capture.fibers.clear();
+        if let Some(fields) = strand {
+            let hairs = capture.roots.iter().map(|root| fields.at(root.uv));
+            capture.bundles.extend(hairs);
+            let bundles = capture.roots.iter().zip(&capture.bundles);
+            let fibers = bundles.flat_map(|(root, bundle)| {
+                (0..fields.fibers).map(|fiber| bundle.fiber(self.seed, root.hair, fiber))
+            });
+            capture.fibers.extend(fibers);
         }
         capture.looks.clear();
         capture

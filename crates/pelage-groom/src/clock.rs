@@ -17,12 +17,14 @@ pub enum Stage {
     Frizz,
     /// Kink.
     Kink,
+    /// Root frames of the pose, and positions.
+    World,
+    /// Fibres of multi-strands.
+    Strand,
     /// Cutting, and which vertices stay.
     Thin,
     /// Colours, opacities and widths along the hair.
     Look,
-    /// Root frames of the pose, and positions.
-    World,
     /// Curve normals.
     Frames,
     /// The sink.
@@ -31,16 +33,17 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order in which they run.
-    pub const ALL: [Stage; 11] = [
+    pub const ALL: [Stage; 12] = [
         Stage::Roots,
         Stage::Weights,
         Stage::Maps,
         Stage::Interpolate,
         Stage::Frizz,
         Stage::Kink,
+        Stage::World,
+        Stage::Strand,
         Stage::Thin,
         Stage::Look,
-        Stage::World,
         Stage::Frames,
         Stage::Sink,
     ];
@@ -54,9 +57,10 @@ impl Stage {
             Stage::Interpolate => "interpolate",
             Stage::Frizz => "frizz",
             Stage::Kink => "kink",
+            Stage::World => "world",
+            Stage::Strand => "strand",
             Stage::Thin => "thin",
             Stage::Look => "look",
-            Stage::World => "world",
             Stage::Frames => "frames",
             Stage::Sink => "sink",
         }

@@ -111,6 +111,14 @@ pub enum PlanError {
         /// How many are allowed.
         limit: u32,
     },
+    /// More fibres a hair than are made at once.
+    #[error("{found} fibres; hairs of as many segments have at most {limit} each")]
+    TooManyFibers {
+        /// Fibres asked for.
+        found: u32,
+        /// How many are allowed.
+        limit: u32,
+    },
     /// More roots of blue noise than are kept in memory.
     #[error(
         "{found} hairs; blue noise is kept in memory and has at most {limit}, \
@@ -147,6 +155,7 @@ impl PlanError {
             | PlanError::FarGuides { .. }
             | PlanError::GuideNotFinite { .. }
             | PlanError::GuideTooShort { .. } => "guides",
+            PlanError::TooManyFibers { .. } => "strand.count",
             PlanError::TooManySegments { .. } => "groups.segments",
             PlanError::GroupWithoutGuides { .. } | PlanError::TooManyGroups { .. } => "groups.map",
         }

@@ -6,9 +6,9 @@
 use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::plan::Plan;
-use crate::shape::Shapes;
+use crate::shape::{Moment, Shapes};
 use crate::stages::roots::Root;
-use crate::stages::{frames, look, world};
+use crate::stages::{frames, look};
 use pelage_curves::FrameScratch;
 use pelage_strands::{StrandBuffer, StrandMeta};
 use pelage_surface::{Mesh, RootFrame};
@@ -46,36 +46,41 @@ impl Plan {
             posed,
             frames: side_by_side,
         } = scratch;
-        self.shape(capture, pose.time as f32, shapes, clock);
+        let started = clock.start();
+        posed.clear();
+        let at_rest = pose.surface.is_none() && !self.roots.is_displaced();
+        if !at_rest {
+            let surface = pose.surface.unwrap_or(&self.roots.rest);
+            let frame = |root: &Root| self.roots.frame(surface, &root.place, root.uv);
+            posed.extend(capture.roots.iter().map(frame));
+        }
+        clock.stop(Stage::World, started);
+        let moment = Moment {
+            posed: (!at_rest).then_some(&posed[..]),
+            time: pose.time as f32,
+        };
+        self.shape(capture, moment, shapes, clock);
         let started = clock.start();
         self.lay_out(capture, shapes, out);
         self.color(capture, shapes, out);
         let started = clock.stop(Stage::Look, started);
-        let frames = if pose.surface.is_none() && !self.roots.is_displaced() {
-            &capture.frames
-        } else {
-            let surface = pose.surface.unwrap_or(&self.roots.rest);
-            let frame = |root: &Root| self.roots.frame(surface, &root.place, root.uv);
-            posed.clear();
-            posed.extend(capture.roots.iter().map(frame));
-            posed
-        };
-        to_world(frames, shapes, out);
-        let started = clock.stop(Stage::World, started);
         if self.normals {
-            let points = bytemuck::cast_slice(&out.points);
+            let frames = moment.posed.unwrap_or(&capture.frames);
+            let (points, fibers) = (bytemuck::cast_slice(&out.points), self.fibers());
             let normals = bytemuck::cast_slice_mut(&mut out.normals);
-            frames::normals(frames, points, &out.offsets, side_by_side, normals);
+            let first = |i: usize| frames[i / fibers].tangent;
+            frames::normals(first, points, &out.offsets, side_by_side, normals);
         }
         clock.stop(Stage::Frames, started);
     }
 
-    /// Every array of `out` gets its length here.
+    /// Every array of `out` gets its length here, and those of single strands their values.
     fn lay_out(&self, capture: &Capture, shapes: &Shapes, out: &mut StrandBuffer) {
         out.clear();
-        let offsets = shapes.offsets();
-        for (root, &vertices) in capture.roots.iter().zip(&offsets[1..]) {
-            out.push_meta(&StrandMeta {
+        shapes.write(&mut out.points);
+        let mut ends = shapes.offsets()[1..].iter().enumerate();
+        for root in &capture.roots {
+            let meta = StrandMeta {
                 hair_id: root.hair,
                 root_uv: root.uv.to_array(),
                 group: root.group,
@@ -83,14 +88,21 @@ impl Plan {
                 barycentric: root.place.barycentric,
                 root_rest: root.rest.to_array(),
                 ..StrandMeta::default()
-            });
-            // `push_meta` closes a strand at the points present; they come below.
-            if let Some(end) = out.offsets.last_mut() {
-                *end = vertices;
+            };
+            for (fiber, (i, &end)) in ends.by_ref().take(self.fibers()).enumerate() {
+                let place = capture.fibers.get(i).map(|fiber| fiber.place.to_array());
+                out.push_meta(&StrandMeta {
+                    strand_id: fiber as u32,
+                    strand_uv: place.unwrap_or_default(),
+                    ..meta
+                });
+                // `push_meta` closes a strand at the points present, which are all.
+                if let Some(last) = out.offsets.last_mut() {
+                    *last = end;
+                }
             }
         }
-        let vertices = offsets.last().map_or(0, |&end| end as usize);
-        out.points.resize(vertices, [0.0; 3]);
+        let vertices = out.points.len();
         out.widths.resize(vertices, 0.0);
         out.colors.resize(vertices, [0.0; 3]);
         out.opacities.resize(vertices, 0.0);
@@ -100,26 +112,18 @@ impl Plan {
     }
 
     fn color(&self, capture: &Capture, shapes: &Shapes, out: &mut StrandBuffer) {
-        for (i, one) in capture.looks.iter().enumerate() {
-            let range = out.vertices(i);
-            let segments = self.guides[capture.roots[i].group as usize].segments;
+        let fibers = self.fibers();
+        for i in 0..out.len() {
+            let (hair, range) = (i / fibers, out.vertices(i));
             look::along(
-                one,
+                &capture.looks[hair],
                 shapes.numbers(i),
-                segments,
-                capture.cut(i),
+                self.guides[capture.roots[hair].group as usize].segments,
+                capture.cut(hair),
                 &mut out.colors[range.clone()],
                 &mut out.opacities[range.clone()],
                 &mut out.widths[range],
             );
         }
-    }
-}
-
-fn to_world(frames: &[RootFrame], shapes: &Shapes, out: &mut StrandBuffer) {
-    for (i, frame) in frames.iter().enumerate() {
-        let range = out.vertices(i);
-        let points = bytemuck::cast_slice_mut(&mut out.points[range]);
-        world::to_world(frame, shapes.vertices(i), points);
     }
 }

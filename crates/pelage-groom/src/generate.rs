@@ -87,7 +87,7 @@ pub fn generate(
     let each = (CHUNK_VERTICES / plan.most_vertices()).clamp(1, CHUNK);
     sink.begin(&StreamInfo {
         at_most: Some(Amount {
-            strands: total,
+            strands: total.saturating_mul(plan.fibers() as u64),
             vertices: total.saturating_mul(plan.most_vertices()),
         }),
         ..request.info.clone()

@@ -7,9 +7,11 @@
 //!
 //! Everything that can fail does so while the [`Plan`] is made.
 
+mod bundles;
 mod capture;
 mod clock;
 pub mod color;
+mod curves;
 mod error;
 mod evaluate;
 mod generate;

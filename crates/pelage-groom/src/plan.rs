@@ -11,6 +11,7 @@ use crate::noise_fields::NoiseFields;
 use crate::random::Channel;
 use crate::recipe::{self, GuideSource, Recipe};
 use crate::stages::frizz::FrizzFields;
+use crate::stages::strand::StrandFields;
 use crate::stages::tint::Tint;
 use crate::{PlanError, RootPlan, grow, root_plan};
 use pelage_surface::Mesh;
@@ -39,6 +40,8 @@ pub(crate) struct Fields {
     pub cut: Option<ScalarField>,
     pub frizz: Option<FrizzFields>,
     pub kink: Option<NoiseFields>,
+    /// `None` where hairs are single.
+    pub strand: Option<StrandFields>,
     pub color: [ColorField; 2],
     pub color_space: ColorSpace,
     pub tint: Tint,
@@ -67,9 +70,10 @@ impl Plan {
             _ => Vec::new(),
         };
         if recipe.groups.segments.is_none() {
-            roots.groups = roots.groups.with_segments(most_segments(&all));
+            roots.groups = roots.groups.with_segments(segments_of(&all));
         }
         refuse_too_long(&roots.groups)?;
+        refuse_too_many(&roots.groups, &fields)?;
         let mut plan = Self {
             roots,
             guides: Vec::new(),
@@ -139,10 +143,9 @@ impl Plan {
         &self.notes
     }
 
-    /// Vertices of the longest hairs.
+    /// Vertices of the longest hairs, with all their fibres.
     pub(crate) fn most_vertices(&self) -> u64 {
-        let segments = self.roots.groups.all().iter().map(|g| g.segments).max();
-        segments.unwrap_or(1) as u64 + 1
+        (most_segments(&self.roots.groups) as u64 + 1) * self.fibers() as u64
     }
 
     /// Number of guides.
@@ -167,6 +170,7 @@ impl Fields {
                 maker,
                 (r.hair.seed, Channel::Kink),
             )?,
+            strand: StrandFields::new(&r.strand, maker)?,
             color: [
                 maker.color("color.root", &r.color.root)?,
                 maker.color("color.tip", &r.color.tip)?,
@@ -204,13 +208,32 @@ fn tint(recipe: &Recipe, maker: &mut FieldMaker) -> Result<Tint, PlanError> {
 const MOST_SEGMENTS: u32 = u16::MAX as u32;
 
 fn refuse_too_long(groups: &Groups) -> Result<(), PlanError> {
-    match groups.all().iter().find(|g| g.segments > MOST_SEGMENTS) {
-        None => Ok(()),
-        Some(group) => Err(PlanError::TooManySegments {
-            found: group.segments,
+    let found = most_segments(groups);
+    match found <= MOST_SEGMENTS {
+        true => Ok(()),
+        false => Err(PlanError::TooManySegments {
+            found,
             limit: MOST_SEGMENTS,
         }),
     }
+}
+
+/// Most vertices of the fibres of one hair, which are made at once: some 300 MB.
+const MOST_VERTICES: u32 = 1 << 22;
+
+fn refuse_too_many(groups: &Groups, fields: &Fields) -> Result<(), PlanError> {
+    let found = fields.strand.as_ref().map_or(1, |strand| strand.fibers);
+    let limit = MOST_VERTICES / (most_segments(groups) + 1);
+    match found <= limit {
+        true => Ok(()),
+        false => Err(PlanError::TooManyFibers { found, limit }),
+    }
+}
+
+/// Segments of the longest hairs.
+fn most_segments(groups: &Groups) -> u32 {
+    let segments = groups.all().iter().map(|group| group.segments);
+    segments.max().unwrap_or(1)
 }
 
 /// A hundredth of the diagonal of the mesh's box, unless the recipe says otherwise.
@@ -223,7 +246,7 @@ fn tolerance(recipe: &Recipe, rest: &Mesh) -> f32 {
 }
 
 /// Segments of the guide with the most.
-fn most_segments(guides: &[Guide]) -> u32 {
+fn segments_of(guides: &[Guide]) -> u32 {
     let segments = guides.iter().map(|g| g.local.len().saturating_sub(1));
     segments.max().unwrap_or(1) as u32
 }

@@ -27,6 +27,10 @@ pub enum Channel {
     Saturation = 10,
     /// `color.variation.value`.
     Value = 11,
+    /// Where the first fibre of a multi-strand stands in its disc.
+    FiberPlace = 12,
+    /// `strand.randomize`.
+    FiberLength = 13,
 }
 
 /// A number in 0..1 for hair `hair` of the groom seeded `seed`.
@@ -38,8 +42,14 @@ pub enum Channel {
 /// ```
 #[inline]
 pub fn uniform(seed: u64, hair: u64, channel: Channel) -> f32 {
-    let word = hash(hash(seed ^ hash(channel as u64)) ^ hair);
+    let word = word(seed, hair, channel);
     (word >> 40) as f32 * (1.0 / (1u32 << 24) as f32)
+}
+
+/// 64 random bits for hair `hair` of the groom seeded `seed`.
+#[inline]
+pub fn word(seed: u64, hair: u64, channel: Channel) -> u64 {
+    hash(hash(seed ^ hash(channel as u64)) ^ hair)
 }
 
 /// The seed of a noise in the groom seeded `seed`.

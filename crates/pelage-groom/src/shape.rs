@@ -1,82 +1,114 @@
-//! The shapes of hairs in the frames of their roots: all that comes before the pose.
+//! The shapes of the hairs of a chunk: from their guides to curves on the pose.
 
+use crate::bundles::BundleScratch;
 use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
+use crate::curves::Curves;
 use crate::plan::Plan;
-use crate::stages::{cut, frizz, interpolate, kink, scale, thin};
+use crate::stages::{cut, frizz, interpolate, kink, scale, thin, world};
 use pelage_curves::Vec3;
-use std::ops::Range;
+use pelage_surface::RootFrame;
 
-/// The hairs of a chunk in local space. Reused between chunks.
+/// The curves of a chunk. Reused between chunks.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shapes {
-    /// All vertices of all hairs; a hair that is cut ends before its last.
-    vertices: Vec<Vec3>,
-    /// Where each hair's vertices start; one more entry than hairs.
-    starts: Vec<u32>,
-    /// For each hair, the numbers of its vertices that stay.
+    /// The hairs, in local space first, then on the pose; where hairs are multi-strands,
+    /// at last their fibres. A curve that is cut ends before its last vertex.
+    curves: Curves,
+    /// For each curve, the numbers of its vertices that stay.
     kept: Vec<u32>,
-    /// Where each hair's begin there; one more entry than hairs.
+    /// Where each curve's begin there; one more entry than curves.
     kept_starts: Vec<u32>,
     noise: [Vec<Vec3>; 3],
+    bundles: BundleScratch,
     tangents: Vec<Vec3>,
 }
 
 impl Shapes {
-    /// Where the vertices that stay start, hair by hair.
+    /// Where the vertices that stay start, curve by curve.
     pub(crate) fn offsets(&self) -> &[u32] {
         &self.kept_starts
     }
 
-    /// Numbers of the vertices that stay of hair `i`.
+    /// Numbers of the vertices that stay of curve `i`.
     pub(crate) fn numbers(&self, i: usize) -> &[u32] {
         &self.kept[self.kept_starts[i] as usize..self.kept_starts[i + 1] as usize]
     }
 
-    /// The vertices that stay of hair `i`.
-    pub(crate) fn vertices(&self, i: usize) -> impl Iterator<Item = Vec3> {
-        let all = &self.vertices[self.range(i)];
-        self.numbers(i).iter().map(|&number| all[number as usize])
-    }
-
-    fn range(&self, i: usize) -> Range<usize> {
-        self.starts[i] as usize..self.starts[i + 1] as usize
+    /// Appends the vertices that stay to `points`.
+    pub(crate) fn write(&self, points: &mut Vec<[f32; 3]>) {
+        for i in 0..self.curves.len() {
+            let (all, numbers) = (self.curves.get(i), self.numbers(i));
+            if numbers.len() == all.len() {
+                points.extend_from_slice(bytemuck::cast_slice(all));
+            } else {
+                points.extend(numbers.iter().map(|&n| all[n as usize].to_array()));
+            }
+        }
     }
 }
 
+/// Where and when hairs are shaped.
+#[derive(Clone, Copy)]
+pub(crate) struct Moment<'a> {
+    /// Frames of the roots where they differ from those at rest.
+    pub posed: Option<&'a [RootFrame]>,
+    /// In frames.
+    pub time: f32,
+}
+
 impl Plan {
-    /// Shapes the hairs of `capture` at `time`.
+    /// Shapes the hairs of `capture`.
     ///
-    /// Which vertices stay is decided by the shapes at time 0, so that it is the same at
-    /// all times (architecture.md, law 4).
+    /// Which vertices stay is decided by the shapes at rest, so that it is the same on all
+    /// poses and at all times (architecture.md, law 4).
     pub(crate) fn shape(
         &self,
         capture: &Capture,
-        time: f32,
+        moment: Moment,
         shapes: &mut Shapes,
         clock: &mut Clock,
     ) {
         let moves = self.fields.frizz.as_ref().is_some_and(|f| f.is_moving());
-        if self.thinning.is_some() && moves && time != 0.0 {
-            self.bend(capture, 0.0, shapes, clock);
+        let differs = moment.posed.is_some() || (moves && moment.time != 0.0);
+        if self.thinning.is_some() && differs {
+            let rest = Moment {
+                posed: None,
+                time: 0.0,
+            };
+            self.make(capture, rest, shapes, clock);
             self.choose(capture, shapes, clock);
-            self.bend(capture, time, shapes, clock);
+            self.make(capture, moment, shapes, clock);
         } else {
-            self.bend(capture, time, shapes, clock);
+            self.make(capture, moment, shapes, clock);
             self.choose(capture, shapes, clock);
         }
     }
 
+    fn make(&self, capture: &Capture, moment: Moment, shapes: &mut Shapes, clock: &mut Clock) {
+        let frames = moment.posed.unwrap_or(&capture.frames);
+        self.bend(capture, moment.time, shapes, clock);
+        let curves = &mut shapes.curves;
+        let started = clock.start();
+        for (i, frame) in frames.iter().enumerate() {
+            world::to_world(frame, curves.get_mut(i));
+        }
+        let started = clock.stop(Stage::World, started);
+        self.bundle(capture, frames, &mut shapes.bundles, curves);
+        let started = clock.stop(Stage::Strand, started);
+        let fibers = self.fibers();
+        for i in 0..capture.cuts.len() * fibers {
+            cut::cut(capture.cut(i / fibers), curves.get_mut(i));
+        }
+        clock.stop(Stage::Thin, started);
+    }
+
+    /// The stages of local space.
     fn bend(&self, capture: &Capture, time: f32, shapes: &mut Shapes, clock: &mut Clock) {
         let started = clock.start();
-        self.interpolate(capture, shapes);
+        self.interpolate(capture, &mut shapes.curves);
         let started = clock.stop(Stage::Interpolate, started);
-        let Shapes {
-            vertices,
-            starts,
-            noise,
-            ..
-        } = shapes;
+        let (noise, Curves { vertices, starts }) = (&mut shapes.noise, &mut shapes.curves);
         let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
         if let Some(fields) = &self.fields.frizz {
             frizz::frizz(fields, &capture.frizz, time, range, vertices, noise);
@@ -86,48 +118,38 @@ impl Plan {
             let (hairs, frames) = (&capture.kinks, &capture.frames);
             kink::kink(fields, hairs, frames, range, vertices, noise);
         }
-        let started = clock.stop(Stage::Kink, started);
-        for (i, &length) in capture.cuts.iter().enumerate() {
-            cut::cut(length, &mut vertices[range(i)]);
-        }
-        clock.stop(Stage::Thin, started);
+        clock.stop(Stage::Kink, started);
     }
 
-    fn interpolate(&self, capture: &Capture, shapes: &mut Shapes) {
-        let Shapes {
-            vertices, starts, ..
-        } = shapes;
-        starts.clear();
-        starts.push(0);
-        let mut end = 0;
-        starts.extend(capture.roots.iter().map(|root| {
-            end += self.guides[root.group as usize].segments + 1;
-            end
-        }));
-        vertices.resize(end as usize, Vec3::ZERO);
+    fn interpolate(&self, capture: &Capture, hairs: &mut Curves) {
+        let segments = |group: u32| self.guides[group as usize].segments;
+        hairs.lay_out(capture.roots.iter().map(|root| segments(root.group) + 1));
         for (i, root) in capture.roots.iter().enumerate() {
-            let range = capture.share_starts[i] as usize..capture.share_starts[i + 1] as usize;
-            let hair = &mut vertices[starts[i] as usize..starts[i + 1] as usize];
+            let shares = capture.share_starts[i] as usize..capture.share_starts[i + 1] as usize;
+            let hair = hairs.get_mut(i);
             let guides = &self.guides[root.group as usize].vertices;
-            interpolate::interpolate(guides, &capture.shares[range], hair);
+            interpolate::interpolate(guides, &capture.shares[shares], hair);
             scale::scale(capture.scale[i], hair);
         }
     }
 
     fn choose(&self, capture: &Capture, shapes: &mut Shapes, clock: &mut Clock) {
         let started = clock.start();
+        let fibers = self.fibers();
         shapes.kept.clear();
         shapes.kept_starts.clear();
         shapes.kept_starts.push(0);
-        for i in 0..capture.roots.len() {
-            let range = shapes.range(i);
-            let uncut = cut::kept(range.len(), capture.cut(i));
+        for i in 0..shapes.curves.len() {
+            let curve = shapes.curves.get(i);
+            let uncut = cut::kept(curve.len(), capture.cut(i / fibers));
             match self.thinning {
                 None => shapes.kept.extend(0..uncut as u32),
-                Some(threshold) => {
-                    let hair = &shapes.vertices[range][..uncut];
-                    thin::thin(threshold, hair, &mut shapes.tangents, &mut shapes.kept);
-                }
+                Some(threshold) => thin::thin(
+                    threshold,
+                    &curve[..uncut],
+                    &mut shapes.tangents,
+                    &mut shapes.kept,
+                ),
             }
             shapes.kept_starts.push(shapes.kept.len() as u32);
         }

@@ -5,15 +5,15 @@
 //! vectors.
 
 use pelage_curves::{FrameScratch, Vec3, untwisted_normals};
-use pelage_surface::RootFrame;
 
-/// Writes the normals of hairs; hair `i` has the vertices `offsets[i]..offsets[i + 1]`.
+/// Writes the normals of curves; curve `i` has the vertices `offsets[i]..offsets[i + 1]`,
+/// and `tangent(i)` is the surface's tangent at its root.
 pub fn normals(
-    roots: &[RootFrame],
-    hairs: &[Vec3],
+    tangent: impl Fn(usize) -> Vec3,
+    curves: &[Vec3],
     offsets: &[u32],
     scratch: &mut FrameScratch,
     normals: &mut [Vec3],
 ) {
-    untwisted_normals(hairs, offsets, |i| roots[i].tangent, scratch, normals);
+    untwisted_normals(curves, offsets, tangent, scratch, normals);
 }

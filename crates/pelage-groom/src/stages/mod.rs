@@ -13,6 +13,7 @@ pub mod look;
 pub mod natural;
 pub mod roots;
 pub mod scale;
+pub mod strand;
 pub mod thin;
 pub mod tint;
 pub mod weights;

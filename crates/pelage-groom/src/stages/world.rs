@@ -5,10 +5,10 @@
 use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
 
-/// Writes local vertices as positions in the space of `frame`.
+/// Moves the local vertices of a hair to the space of `frame`, the frame of its root.
 #[inline]
-pub fn to_world(frame: &RootFrame, local: impl Iterator<Item = Vec3>, world: &mut [Vec3]) {
-    for (out, v) in world.iter_mut().zip(local) {
-        *out = frame.position + frame.vector(v);
+pub fn to_world(frame: &RootFrame, hair: &mut [Vec3]) {
+    for vertex in hair {
+        *vertex = frame.position + frame.vector(*vertex);
     }
 }

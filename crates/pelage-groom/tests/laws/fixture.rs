@@ -41,10 +41,27 @@ const SHARED: &str = "interpolation = { method = 'natural-neighbor', facing = tr
     color.mutant = { percent = 20.0 }
     color.variation = { hue = 20.0, saturation = 0.1, value = 0.1 }";
 
+/// Multi-strands, with everything that shapes them.
+const STRANDS: &str = "frizz = { tip = 0.2, animation = { amount = 0.5, speed = 1.0 } }
+    kink = { tip = 0.05, frequency = [9, 9, 9] }
+    cut.length = { map = 'length.png' }
+    output.skip_threshold = 0.95
+    [strand]
+    count = 3
+    splay = { root = 0.01, center = { value = 0.05, map = 'length.png' }, tip = 0.02 }
+    twist = 90.0
+    aspect = 0.5
+    offset = 0.1
+    randomize = 0.4
+    [color.mutant]
+    percent = 20.0
+";
+
 /// Every kind of roots, and of hairs.
 pub fn kinds() -> impl Iterator<Item = Fixture<'static>> {
     let patterns = ["roots.pattern = 'random'", "roots.pattern = 'blue-noise'"];
-    ["", DISPLACED, NOISY, patterns[0], patterns[1], SHARED]
+    let [random, blue_noise] = patterns;
+    ["", DISPLACED, NOISY, random, blue_noise, SHARED, STRANDS]
         .into_iter()
         .map(|more| Fixture {
             more,
@@ -111,17 +128,14 @@ impl Fixture<'_> {
             "surface.mesh = 'ball.obj'
             hair = {{ count = {}, seed = 7 }}
             groups.segments = 6
-            [guides.grow]
-            count = 200
-            length = 0.4
-            lean = 40.0
-            comb = [0.3, -1.0, 0.2]
-            curl = {{ radius = 0.02, turns = 1.5 }}
+            guides.grow = {{ count = 200, length = 0.4, lean = 40.0, comb = [0.3, -1.0, 0.2],
+                curl = {{ radius = 0.02, turns = 1.5 }} }}
             ",
             self.count
         );
         let maps = if self.flat { "" } else { maps };
-        let text = format!("{}\n{maps}\n{text}", self.more);
+        // What is more comes last: it may have sections of its own.
+        let text = format!("{maps}\n{text}\n{}", self.more);
         Recipe::parse(&text, Path::new("groom.toml")).unwrap()
     }
 
@@ -187,6 +201,11 @@ pub fn strands(plan: &Plan, hairs: &[u64], pose: Option<&Mesh>) -> StrandBuffer 
         &mut clock,
     );
     out
+}
+
+/// Curves a hair in `strands`, where every hair has as many.
+pub fn fibers(strands: &StrandBuffer) -> usize {
+    1 + strands.strand_id.iter().max().copied().unwrap_or(0) as usize
 }
 
 /// A rotation and a shift.

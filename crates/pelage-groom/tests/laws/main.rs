@@ -6,8 +6,9 @@
 mod fixture;
 mod interpolation;
 mod look;
+mod strand;
 
-use fixture::{Fixture, collect, kinds, moved, request, strands};
+use fixture::{Fixture, collect, fibers, kinds, moved, request, strands};
 use pelage_curves::{Vec3, catmull_rom};
 use pelage_groom::{Capture, Clock, Plan, Pose, Scratch, generate, write_roots};
 use pelage_strands::{
@@ -23,7 +24,7 @@ fn law_1_any_split_thread_count_and_chunk_gives_the_same_bits() {
     for fixture in kinds() {
         let (plan, more) = (fixture.plan(), fixture.more);
         let whole = collect(&plan, 0..5000, 1);
-        assert_eq!(whole.len(), 5000);
+        assert_eq!(whole.len(), 5000 * fibers(&whole));
         for threads in [2, 3, 7] {
             let same = collect(&plan, 0..5000, threads) == whole;
             assert!(same, "{threads} threads, {more}");
@@ -85,11 +86,17 @@ fn law_3_hairs_of_the_voxels_are_exactly_the_whole_and_bit_for_bit_the_same() {
             for cell in 0..voxels.cells() {
                 let hairs = voxels.hairs(cell, 3000);
                 let part = strands(&plan, &hairs, None);
+                let fibers = fibers(&whole);
+                assert_eq!(part.len(), hairs.len() * fibers);
                 for (i, &hair) in hairs.iter().enumerate() {
                     let hair = hair as usize;
                     let twice = std::mem::replace(&mut seen[hair], true);
                     assert!(!twice, "hair {hair} twice, {}", fixture.more);
-                    assert_eq!(part.strand_points(i), whole.strand_points(hair));
+                    for k in 0..fibers {
+                        let (one, same) = (i * fibers + k, hair * fibers + k);
+                        assert_eq!(part.strand_points(one), whole.strand_points(same));
+                        assert_eq!(part.strand_id[one] as usize, k);
+                    }
                 }
             }
             assert!(seen.iter().all(|s| *s), "{resolution:?}, {}", fixture.more);
@@ -203,11 +210,15 @@ fn roots_by_themselves_are_those_of_the_hairs() {
         let mut roots = Collect::default();
         let request = request(0..5000, 2);
         write_roots(plan.roots(), &request, None, &mut roots, &mut |_| true).unwrap();
-        let roots = roots.strands;
-        assert_eq!(roots.hair_id, hairs.hair_id);
-        assert_eq!(roots.barycentric, hairs.barycentric);
-        assert_eq!(roots.root_rest, hairs.root_rest);
+        let (roots, fibers) = (roots.strands, fibers(&hairs));
         for (i, root) in roots.points.iter().enumerate() {
+            let hair = i * fibers;
+            assert_eq!(roots.hair_id[i], hairs.hair_id[hair]);
+            assert_eq!(roots.barycentric[i], hairs.barycentric[hair]);
+            assert_eq!(roots.root_rest[i], hairs.root_rest[hair]);
+            if fibers > 1 {
+                continue;
+            }
             let first = hairs.strand_points(i)[0];
             assert!(Vec3::from(*root).distance(first) < 1e-6, "{}", fixture.more);
         }
