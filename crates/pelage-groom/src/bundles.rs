@@ -3,6 +3,7 @@
 use crate::capture::Capture;
 use crate::curves::Curves;
 use crate::plan::Plan;
+use crate::stages::length;
 use crate::stages::strand::{self, StrandFields};
 use pelage_curves::{FrameScratch, Vec3, catmull_rom, untwisted_normals};
 use pelage_surface::RootFrame;
@@ -75,8 +76,11 @@ impl Plan {
         strand::sections(&capture.bundles[i], hair, tangents, normals, sections);
         let first = i * fields.fibers as usize;
         for place in first..first + fields.fibers as usize {
-            let fiber = capture.fibers[place];
-            strand::around(fiber, root, sections, curves.get_mut(place));
+            let (fiber, vertices) = (capture.fibers[place], curves.get_mut(place));
+            strand::around(fiber, root, sections, vertices);
+            if self.fields.preserve.splay {
+                length::preserve(hair, 1.0 - fiber.lack, vertices);
+            }
         }
     }
 }

@@ -4,9 +4,12 @@
 
 use crate::clock::{Clock, Stage};
 use crate::color::ColorMix;
+use crate::locator::Near;
 use crate::neighbors::Neighbors;
 use crate::noise_fields::HairNoise;
 use crate::plan::{Fields, Plan};
+use crate::stages::clump::Member;
+use crate::stages::flyaway::Stray;
 use crate::stages::frizz::Frizz;
 use crate::stages::look::Look;
 use crate::stages::roots::{Root, root};
@@ -48,6 +51,8 @@ pub struct Capture {
     /// Frame of each root at rest.
     pub(crate) frames: Vec<RootFrame>,
     pub(crate) scale: Vec<f32>,
+    /// Lengths of the guides as they are mixed and scaled.
+    pub(crate) lengths: Vec<f32>,
     /// The part of each hair that stays; empty where the recipe cuts none.
     pub(crate) cuts: Vec<f32>,
     /// Where each hair's shares start; one more entry than hairs.
@@ -62,6 +67,11 @@ pub struct Capture {
     pub(crate) bundles: Vec<Bundle>,
     /// Those of a hair follow one another. Empty where hairs are single.
     pub(crate) fibers: Vec<Fiber>,
+    /// Empty where no hair strays.
+    pub(crate) strays: Vec<Stray>,
+    /// One for each level of clumps, hair by hair.
+    pub(crate) members: Vec<Member>,
+    pub(crate) near: Vec<Near>,
     dropped: Dropped,
     hairs: Vec<u64>,
     places: Vec<SurfacePoint>,
@@ -84,10 +94,23 @@ impl Capture {
         self.cuts.get(i).copied().unwrap_or(1.0)
     }
 
+    /// How much of hair number `i` stays with its clump.
+    pub(crate) fn clumped(&self, i: usize) -> f32 {
+        self.strays.get(i).map_or(1.0, |stray| stray.clumped)
+    }
+
     /// Hairs left out, and why.
     pub fn dropped(&self) -> Dropped {
         self.dropped
     }
+}
+
+/// What is captured.
+#[derive(Clone, Copy)]
+enum Kind {
+    Hairs,
+    /// Those in the middles of clumps, which are whole and have nothing to do with chance.
+    Middles,
 }
 
 impl Plan {
@@ -95,16 +118,27 @@ impl Plan {
     /// (see [`RootPlan::rooted`](crate::RootPlan::rooted)) are left out.
     pub fn capture(&self, hairs: Range<u64>, capture: &mut Capture, clock: &mut Clock) {
         let hairs = self.roots.rooted(hairs);
-        self.capture_placed(capture, clock, |all, places| {
+        self.capture_placed(Kind::Hairs, capture, clock, |all, places| {
             self.roots.places(hairs.clone(), places);
             all.extend(hairs);
         });
+        self.capture_hairs(capture, clock);
+    }
+
+    /// Captures the hairs in the middles of clumps at `places`, numbered in their order.
+    pub(crate) fn capture_middles(&self, places: &[SurfacePoint], capture: &mut Capture) {
+        let clock = &mut Clock::default();
+        self.capture_placed(Kind::Middles, capture, clock, |all, found| {
+            all.extend(0..places.len() as u64);
+            found.extend(places);
+        });
+        self.clump(capture);
     }
 
     /// Captures the hairs listed, in that order: those of a voxel, say. Otherwise as
     /// [`capture`](Self::capture).
     pub fn capture_listed(&self, hairs: &[u64], capture: &mut Capture, clock: &mut Clock) {
-        self.capture_placed(capture, clock, |all, places| {
+        self.capture_placed(Kind::Hairs, capture, clock, |all, places| {
             let rooted = hairs
                 .iter()
                 .filter_map(|&hair| Some((hair, self.roots.place(hair)?)));
@@ -113,11 +147,13 @@ impl Plan {
                 places.push(place);
             }
         });
+        self.capture_hairs(capture, clock);
     }
 
     /// Captures the hairs that `place` appends, with their places.
     fn capture_placed(
         &self,
+        kind: Kind,
         capture: &mut Capture,
         clock: &mut Clock,
         place: impl FnOnce(&mut Vec<u64>, &mut Vec<SurfacePoint>),
@@ -138,14 +174,9 @@ impl Plan {
         capture.frames.extend(frames);
         capture.dropped = Dropped::default();
         let started = clock.stop(Stage::Roots, started);
-        self.weigh(capture);
+        self.weigh(kind, capture);
         let started = clock.stop(Stage::Weights, started);
-        let Fields {
-            frizz,
-            kink,
-            strand,
-            ..
-        } = &self.fields;
+        let Fields { frizz, kink, .. } = &self.fields;
         capture.frizz.clear();
         if let Some(fields) = frizz {
             let hairs = capture.roots.iter().map(|root| fields.at(root));
@@ -155,6 +186,21 @@ impl Plan {
         if let Some(fields) = kink {
             let hairs = capture.roots.iter().map(|root| fields.at(root.uv));
             capture.kinks.extend(hairs);
+        }
+        clock.stop(Stage::Maps, started);
+    }
+
+    /// What the hairs in the middles of clumps lack: straying, fibres, looks and clumps of
+    /// all levels.
+    fn capture_hairs(&self, capture: &mut Capture, clock: &mut Clock) {
+        let started = clock.start();
+        let Fields {
+            flyaway, strand, ..
+        } = &self.fields;
+        capture.strays.clear();
+        if let Some(fields) = flyaway {
+            let stray = |root: &Root| fields.at(root.uv, self.seed, root.hair);
+            capture.strays.extend(capture.roots.iter().map(stray));
         }
         capture.bundles.clear();
         capture.fibers.clear();
@@ -171,12 +217,15 @@ impl Plan {
         capture
             .looks
             .extend(capture.roots.iter().map(|root| self.look(root)));
-        clock.stop(Stage::Maps, started);
+        let started = clock.stop(Stage::Maps, started);
+        self.clump(capture);
+        clock.stop(Stage::Clump, started);
     }
 
     /// Finds guides, weights and scale, and drops hairs that have no length.
-    fn weigh(&self, capture: &mut Capture) {
+    fn weigh(&self, kind: Kind, capture: &mut Capture) {
         capture.scale.clear();
+        capture.lengths.clear();
         capture.cuts.clear();
         capture.shares.clear();
         capture.share_starts.clear();
@@ -185,8 +234,14 @@ impl Plan {
         for i in 0..capture.roots.len() {
             let root = capture.roots[i];
             let f = &self.fields;
-            let factor = scale::factor(&f.scale, &f.scale_random, root.uv, self.seed, root.hair);
-            let cut = f.cut.as_ref().map(|cut| cut.at(root.uv).clamp(0.0, 1.0));
+            let amount = scale::amount(&f.scale, root.uv);
+            let (factor, cut) = match kind {
+                Kind::Middles => (amount, None),
+                Kind::Hairs => (
+                    amount * scale::random(&f.scale_random, root.uv, self.seed, root.hair),
+                    f.cut.as_ref().map(|cut| cut.at(root.uv).clamp(0.0, 1.0)),
+                ),
+            };
             if cut == Some(0.0) {
                 capture.dropped.cut += 1;
                 continue;
@@ -227,6 +282,7 @@ impl Plan {
             capture.frames[kept] = frame;
             kept += 1;
             capture.scale.push(factor);
+            capture.lengths.push(length * factor);
             capture.cuts.extend(cut);
             capture.share_starts.push(capture.shares.len() as u32);
         }

@@ -17,8 +17,12 @@ pub enum Stage {
     Frizz,
     /// Kink.
     Kink,
+    /// Hairs that stray.
+    Flyaway,
     /// Root frames of the pose, and positions.
     World,
+    /// Which clumps hairs belong to, and drawing them together.
+    Clump,
     /// Fibres of multi-strands.
     Strand,
     /// Cutting, and which vertices stay.
@@ -33,14 +37,16 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order in which they run.
-    pub const ALL: [Stage; 12] = [
+    pub const ALL: [Stage; 14] = [
         Stage::Roots,
         Stage::Weights,
         Stage::Maps,
         Stage::Interpolate,
         Stage::Frizz,
         Stage::Kink,
+        Stage::Flyaway,
         Stage::World,
+        Stage::Clump,
         Stage::Strand,
         Stage::Thin,
         Stage::Look,
@@ -57,7 +63,9 @@ impl Stage {
             Stage::Interpolate => "interpolate",
             Stage::Frizz => "frizz",
             Stage::Kink => "kink",
+            Stage::Flyaway => "flyaway",
             Stage::World => "world",
+            Stage::Clump => "clump",
             Stage::Strand => "strand",
             Stage::Thin => "thin",
             Stage::Look => "look",

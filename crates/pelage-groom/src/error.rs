@@ -111,6 +111,24 @@ pub enum PlanError {
         /// How many are allowed.
         limit: u32,
     },
+    /// Posed guides that are not those at rest.
+    #[error("{found} guides, but {expected} at rest; both need the same, in the same order")]
+    PosedGuides {
+        /// Guides of the pose.
+        found: usize,
+        /// Guides at rest.
+        expected: usize,
+    },
+    /// More clumps than are kept in memory.
+    #[error("makes {found} clumps; a level has at most {limit}")]
+    TooManyClumps {
+        /// The property.
+        key: String,
+        /// Clumps asked for.
+        found: u64,
+        /// How many are allowed.
+        limit: u64,
+    },
     /// More fibres a hair than are made at once.
     #[error("{found} fibres; hairs of as many segments have at most {limit} each")]
     TooManyFibers {
@@ -149,12 +167,14 @@ impl PlanError {
             PlanError::Pose { .. } => "surface.posed",
             PlanError::NoUvs { key, .. }
             | PlanError::MapNotLoaded { key, .. }
+            | PlanError::TooManyClumps { key, .. }
             | PlanError::NegativeDensity { key, .. } => key,
             PlanError::TooMuchBlueNoise { .. } => "hair.count",
             PlanError::NoGuides
             | PlanError::FarGuides { .. }
             | PlanError::GuideNotFinite { .. }
             | PlanError::GuideTooShort { .. } => "guides",
+            PlanError::PosedGuides { .. } => "guides.posed",
             PlanError::TooManyFibers { .. } => "strand.count",
             PlanError::TooManySegments { .. } => "groups.segments",
             PlanError::GroupWithoutGuides { .. } | PlanError::TooManyGroups { .. } => "groups.map",

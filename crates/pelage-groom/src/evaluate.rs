@@ -6,12 +6,12 @@
 use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::plan::Plan;
-use crate::shape::{Moment, Shapes};
-use crate::stages::roots::Root;
+use crate::pose::Posed;
+use crate::shape::Shapes;
 use crate::stages::{frames, look};
 use pelage_curves::FrameScratch;
 use pelage_strands::{StrandBuffer, StrandMeta};
-use pelage_surface::{Mesh, RootFrame};
+use pelage_surface::RootFrame;
 
 /// Arrays that are only used while a chunk is evaluated.
 #[derive(Clone, Debug, Default)]
@@ -21,51 +21,31 @@ pub struct Scratch {
     frames: FrameScratch,
 }
 
-/// A moment in which hairs are made: where the surface is, and the time.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Pose<'a> {
-    /// The posed surface, with the topology of the rest mesh (see [`Mesh::posed`]); `None`
-    /// is the rest pose itself.
-    pub surface: Option<&'a Mesh>,
-    /// In frames; moves the animated part of frizz.
-    pub time: f64,
-}
-
 impl Plan {
-    /// Writes the strands of `capture` on `pose` into `out`, which is emptied first.
+    /// Writes the strands of `capture` on a pose into `out`, which is emptied first.
     pub fn evaluate(
         &self,
         capture: &Capture,
-        pose: Pose,
+        posed: &Posed,
         scratch: &mut Scratch,
         out: &mut StrandBuffer,
         clock: &mut Clock,
     ) {
+        let moment = posed.moment();
         let Scratch {
             shapes,
             posed,
             frames: side_by_side,
         } = scratch;
         let started = clock.start();
-        posed.clear();
-        let at_rest = pose.surface.is_none() && !self.roots.is_displaced();
-        if !at_rest {
-            let surface = pose.surface.unwrap_or(&self.roots.rest);
-            let frame = |root: &Root| self.roots.frame(surface, &root.place, root.uv);
-            posed.extend(capture.roots.iter().map(frame));
-        }
+        let frames = self.frames(capture, &moment, posed);
         clock.stop(Stage::World, started);
-        let moment = Moment {
-            posed: (!at_rest).then_some(&posed[..]),
-            time: pose.time as f32,
-        };
-        self.shape(capture, moment, shapes, clock);
+        self.shape(capture, frames, &moment, shapes, clock);
         let started = clock.start();
         self.lay_out(capture, shapes, out);
         self.color(capture, shapes, out);
         let started = clock.stop(Stage::Look, started);
         if self.normals {
-            let frames = moment.posed.unwrap_or(&capture.frames);
             let (points, fibers) = (bytemuck::cast_slice(&out.points), self.fibers());
             let normals = bytemuck::cast_slice_mut(&mut out.normals);
             let first = |i: usize| frames[i / fibers].tangent;

@@ -2,14 +2,13 @@
 
 use crate::capture::{Capture, Dropped};
 use crate::clock::{Clock, Stage};
-use crate::evaluate::{Pose, Scratch};
+use crate::evaluate::Scratch;
 use crate::in_order::{Chunks, in_order};
 use crate::plan::Plan;
+use crate::pose::{Pose, Posed};
 use pelage_strands::{Amount, Sink, SinkError, StrandBuffer, StreamInfo};
-use pelage_surface::Mesh;
 use std::error::Error;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// Most hairs in a chunk: its arrays (some 300 KB at six vertices a hair) stay in a
 /// core's second-level cache. Fewer cost more hand-overs, more fall out of the cache.
@@ -31,8 +30,8 @@ pub struct Request {
     pub info: StreamInfo,
 }
 
-/// Gives the surface at a frame; `None` is the rest pose.
-pub type Poses<'a> = dyn FnMut(f64) -> Result<Option<Arc<Mesh>>, Box<dyn Error + Send + Sync>> + 'a;
+/// Gives surface and guides at a frame, which becomes the time of the pose.
+pub type Poses<'a> = dyn FnMut(f64) -> Result<Pose, Box<dyn Error + Send + Sync>> + 'a;
 
 /// Why a run stopped.
 #[derive(Debug, thiserror::Error)]
@@ -40,7 +39,7 @@ pub enum GenerateError {
     /// The sink would not take the strands.
     #[error(transparent)]
     Sink(#[from] SinkError),
-    /// The surface of a frame could not be had.
+    /// The pose of a frame could not be had.
     #[error("frame {frame}: {error}")]
     Pose {
         /// The frame, as in [`StreamInfo::frames`].
@@ -93,15 +92,13 @@ pub fn generate(
         ..request.info.clone()
     })?;
     for (index, &frame) in frames.iter().enumerate() {
-        let surface = poses(frame).map_err(|error| GenerateError::Pose { frame, error })?;
+        let posed =
+            posed(plan, poses, frame).map_err(|error| GenerateError::Pose { frame, error })?;
         sink.begin_frame(index)?;
         let mut run = Run {
             plan,
             chunks: Chunks::new(hairs.clone(), each),
-            pose: Pose {
-                surface: surface.as_deref(),
-                time: frame,
-            },
+            posed: &posed,
             done: total * index as u64,
             report: Report {
                 clock: std::mem::take(&mut report.clock),
@@ -116,6 +113,18 @@ pub fn generate(
     sink.finish()?;
     report.clock.stop(Stage::Sink, started);
     Ok(report)
+}
+
+fn posed(
+    plan: &Plan,
+    poses: &mut Poses,
+    frame: f64,
+) -> Result<Posed, Box<dyn Error + Send + Sync>> {
+    let pose = Pose {
+        time: frame,
+        ..poses(frame)?
+    };
+    Ok(plan.posed(&pose)?)
 }
 
 /// A chunk of strands with what was noted while it was made.
@@ -133,14 +142,14 @@ struct Worker {
 }
 
 impl Worker {
-    fn make(&mut self, plan: &Plan, hairs: Range<u64>, pose: Pose, chunk: &mut Chunk) {
+    fn make(&mut self, plan: &Plan, hairs: Range<u64>, posed: &Posed, chunk: &mut Chunk) {
         chunk.clock = Clock::default();
         plan.capture(hairs, &mut self.capture, &mut chunk.clock);
         chunk.dropped = self.capture.dropped();
         let strands = &mut chunk.strands;
         plan.evaluate(
             &self.capture,
-            pose,
+            posed,
             &mut self.scratch,
             strands,
             &mut chunk.clock,
@@ -151,7 +160,7 @@ impl Worker {
 struct Run<'a> {
     plan: &'a Plan,
     chunks: Chunks,
-    pose: Pose<'a>,
+    posed: &'a Posed,
     /// Hairs taken, with those of the frames before.
     done: u64,
     report: Report,
@@ -164,12 +173,12 @@ impl Run<'_> {
         sink: &mut dyn Sink,
         progress: &mut dyn FnMut(u64) -> bool,
     ) -> Result<(), GenerateError> {
-        let (plan, pose, chunks) = (self.plan, self.pose, self.chunks.clone());
+        let (plan, posed, chunks) = (self.plan, self.posed, self.chunks.clone());
         in_order(
             chunks.count(),
             threads,
             |worker: &mut Worker, number, chunk: &mut Chunk| {
-                worker.make(plan, chunks.get(number), pose, chunk);
+                worker.make(plan, chunks.get(number), posed, chunk);
             },
             |number, chunk| self.take(number, chunk, sink, progress),
         )

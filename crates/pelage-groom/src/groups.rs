@@ -4,9 +4,9 @@
 //! to it, so that a soft brush or a lossy file makes no groups of its own.
 
 use crate::PlanError;
+use crate::code_map::{CodeMap, codes};
 use crate::texture::Texture;
 use pelage_curves::Vec2;
-use pelage_surface::{ImageMap, Tiles, Wrap};
 
 /// Most groups that a map may hold without its colours being listed.
 const MOST_GROUPS: usize = 256;
@@ -34,22 +34,7 @@ impl Group {
 #[derive(Clone, Debug)]
 pub struct Groups {
     groups: Vec<Group>,
-    map: Option<GroupMap>,
-}
-
-#[derive(Clone, Debug)]
-enum GroupMap {
-    Image(Texels, Wrap),
-    /// The tiles, and the group where there is none.
-    Tiles(Tiles<Texels>, u16),
-}
-
-#[derive(Clone, Debug)]
-struct Texels {
-    width: u32,
-    height: u32,
-    /// Group of each texel, rows from the top.
-    groups: Vec<u16>,
+    map: Option<CodeMap<u16>>,
 }
 
 impl Groups {
@@ -74,7 +59,7 @@ impl Groups {
             })
             .collect();
         Self {
-            map: Some(GroupMap::new(map, &groups)),
+            map: Some(CodeMap::new(map, |code| nearest(code, &groups))),
             groups,
         }
     }
@@ -111,44 +96,7 @@ impl Groups {
     /// The group at texture coordinates `uv`.
     #[inline]
     pub fn at(&self, uv: Vec2) -> u32 {
-        self.map.as_ref().map_or(0, |map| map.at(uv))
-    }
-}
-
-impl GroupMap {
-    fn new(map: &Texture, groups: &[Group]) -> Self {
-        match map {
-            Texture::Image(image, wrap) => Self::Image(Texels::new(image, groups), *wrap),
-            Texture::Tiles(tiles) => Self::Tiles(
-                tiles.map(|image| Texels::new(image, groups)),
-                nearest([0; 3], groups),
-            ),
-        }
-    }
-
-    fn at(&self, uv: Vec2) -> u32 {
-        let group = match self {
-            Self::Image(texels, wrap) => texels.at([uv.x, uv.y], *wrap),
-            Self::Tiles(tiles, elsewhere) => tiles
-                .at(uv.x, uv.y)
-                .map_or(*elsewhere, |(texels, uv)| texels.at(uv, Wrap::Clamp)),
-        };
-        group as u32
-    }
-}
-
-impl Texels {
-    fn new(image: &ImageMap, groups: &[Group]) -> Self {
-        Self {
-            width: image.width(),
-            height: image.height(),
-            groups: codes(image).map(|code| nearest(code, groups)).collect(),
-        }
-    }
-
-    fn at(&self, uv: [f32; 2], wrap: Wrap) -> u16 {
-        let [x, y] = wrap.texel(uv, [self.width, self.height]);
-        self.groups[y as usize * self.width as usize + x as usize]
+        self.map.as_ref().map_or(0, |map| map.at(uv) as u32)
     }
 }
 
@@ -166,18 +114,10 @@ fn nearest(code: [u8; 3], groups: &[Group]) -> u16 {
         .map_or(0, |(i, _)| i as u16)
 }
 
-/// Colour codes of an image's texels; grey ones have equal parts.
-fn codes(map: &ImageMap) -> impl Iterator<Item = [u8; 3]> {
-    let channels = map.channels() as usize;
-    map.texels().chunks_exact(channels).map(move |t| {
-        let code = |k: usize| (t[if channels >= 3 { k } else { 0 }] * 255.0 + 0.5) as u8;
-        [code(0), code(1), code(2)]
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pelage_surface::{ImageMap, Wrap};
     use std::sync::Arc;
 
     fn clamped(width: u32, channels: u32, texels: Vec<f32>) -> Texture {

@@ -3,7 +3,7 @@
 use crate::guide::Guide;
 use crate::locator::{Locator, Near};
 use pelage_curves::Vec3;
-use pelage_surface::{Mesh, RootFrame};
+use pelage_surface::{Mesh, RootFrame, SurfacePoint};
 
 /// The guides of one group as arrays.
 #[derive(Clone, Debug)]
@@ -12,6 +12,10 @@ pub(crate) struct GuideSet {
     pub segments: u32,
     /// `segments + 1` local vertices a guide, one guide after the other.
     pub vertices: Vec<Vec3>,
+    /// Number of each guide among all of the groom.
+    pub numbers: Vec<usize>,
+    /// Where each guide grows.
+    pub roots: Vec<SurfacePoint>,
     /// Frame of each guide's root at rest.
     pub frames: Vec<RootFrame>,
     /// Direction at rest in which each guide leaves its root; unit vectors.
@@ -23,11 +27,17 @@ pub(crate) struct GuideSet {
 }
 
 impl GuideSet {
-    /// Resamples `guides` to `segments` each and prepares finding the `nearest`.
-    pub(crate) fn new(mesh: &Mesh, guides: &[&Guide], segments: u32, nearest: usize) -> Self {
+    /// Resamples `guides`, each with its number among all of the groom, to `segments` each
+    /// and prepares finding the `nearest`.
+    pub(crate) fn new(
+        mesh: &Mesh,
+        guides: &[(usize, &Guide)],
+        segments: u32,
+        nearest: usize,
+    ) -> Self {
         let resampled: Vec<Guide> = guides
             .iter()
-            .map(|g| g.resampled(segments as usize))
+            .map(|(_, guide)| guide.resampled(segments as usize))
             .collect();
         Self {
             segments,
@@ -35,8 +45,10 @@ impl GuideSet {
                 .iter()
                 .flat_map(|g| g.local.iter().copied())
                 .collect(),
+            numbers: guides.iter().map(|(number, _)| *number).collect(),
+            roots: guides.iter().map(|(_, guide)| guide.root).collect(),
             frames: resampled.iter().map(|g| g.frame).collect(),
-            directions: guides.iter().map(|g| g.direction()).collect(),
+            directions: guides.iter().map(|(_, guide)| guide.direction()).collect(),
             lengths: resampled.iter().map(Guide::length).collect(),
             locator: Locator::new(
                 mesh,
@@ -44,6 +56,20 @@ impl GuideSet {
                 nearest,
             ),
         }
+    }
+
+    /// Local vertices of the guides as `curves` has them, one curve for each guide of the
+    /// groom, in the space of `surface`.
+    pub(crate) fn posed(&self, surface: &Mesh, curves: &[Vec<Vec3>]) -> Vec<Vec3> {
+        let guides = self.numbers.iter().zip(&self.roots);
+        let posed = guides.map(|(&number, &root)| {
+            let curve = &curves[number];
+            let first = curve.first().copied().unwrap_or_default();
+            let offsets: Vec<Vec3> = curve.iter().map(|&p| p - first).collect();
+            let guide = Guide::new(surface, root, &offsets);
+            guide.resampled(self.segments as usize).local
+        });
+        posed.flatten().collect()
     }
 
     /// Number of guides.

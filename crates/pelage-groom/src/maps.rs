@@ -27,6 +27,12 @@ pub struct ScalarField {
 }
 
 impl ScalarField {
+    /// 1 everywhere.
+    pub(crate) const ONE: Self = Self {
+        value: 1.0,
+        map: None,
+    };
+
     /// The value at texture coordinates `uv`.
     #[inline]
     pub fn at(&self, uv: Vec2) -> f32 {

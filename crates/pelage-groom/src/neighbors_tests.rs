@@ -45,7 +45,7 @@ fn some_guides(mesh: &Mesh, sharing: &Sharing, count: u64) -> GuideSet {
             Guide::new(mesh, place(u, v), &[Vec3::ZERO, along])
         })
         .collect();
-    let guides: Vec<&Guide> = guides.iter().collect();
+    let guides: Vec<(usize, &Guide)> = guides.iter().enumerate().collect();
     GuideSet::new(mesh, &guides, 3, sharing.nearest())
 }
 

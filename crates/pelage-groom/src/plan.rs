@@ -1,6 +1,8 @@
 //! The compiled groom: immutable, shared between threads, never fails once built.
 
+use crate::clumps::Level;
 use crate::color::ColorSpace;
+use crate::curves::Curves;
 use crate::groom::Groom;
 use crate::groups::Groups;
 use crate::guide::{self, Guide};
@@ -8,8 +10,10 @@ use crate::guide_set::GuideSet;
 use crate::maps::{ColorField, FieldMaker, ScalarField};
 use crate::neighbors::Sharing;
 use crate::noise_fields::NoiseFields;
+use crate::pose::Moment;
 use crate::random::Channel;
 use crate::recipe::{self, GuideSource, Recipe};
+use crate::stages::flyaway::FlyawayFields;
 use crate::stages::frizz::FrizzFields;
 use crate::stages::strand::StrandFields;
 use crate::stages::tint::Tint;
@@ -23,6 +27,9 @@ pub struct Plan {
     pub(crate) guides: Vec<GuideSet>,
     pub(crate) sharing: Sharing,
     pub(crate) fields: Fields,
+    pub(crate) clumps: Vec<Level>,
+    /// The hairs in the middles of clumps at rest, level by level.
+    pub(crate) rest_middles: Vec<Curves>,
     pub(crate) seed: u64,
     pub(crate) normals: bool,
     /// Cosine above which the bend at a vertex is too little to keep it; `None` keeps all.
@@ -40,6 +47,9 @@ pub(crate) struct Fields {
     pub cut: Option<ScalarField>,
     pub frizz: Option<FrizzFields>,
     pub kink: Option<NoiseFields>,
+    pub preserve: Preserve,
+    /// `None` where no hair strays.
+    pub flyaway: Option<FlyawayFields>,
     /// `None` where hairs are single.
     pub strand: Option<StrandFields>,
     pub color: [ColorField; 2],
@@ -47,6 +57,14 @@ pub(crate) struct Fields {
     pub tint: Tint,
     pub opacity: [ScalarField; 2],
     pub width: [ScalarField; 2],
+}
+
+/// Which stages leave hairs their length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Preserve {
+    pub frizz: bool,
+    pub kink: bool,
+    pub splay: bool,
 }
 
 impl Plan {
@@ -79,6 +97,8 @@ impl Plan {
             guides: Vec::new(),
             sharing: Sharing::new(&recipe.interpolation),
             fields,
+            clumps: Vec::new(),
+            rest_middles: Vec::new(),
             seed: recipe.hair.seed,
             normals: recipe.output.normals,
             thinning: Some(recipe.output.skip_threshold).filter(|&threshold| threshold < 1.0),
@@ -86,6 +106,10 @@ impl Plan {
             notes,
         };
         plan.share_out(&all)?;
+        for level in &recipe.clump.levels {
+            plan.add_clumps(level, &mut maker)?;
+        }
+        plan.rest_middles = plan.middle_hairs(&Moment::REST);
         Ok(plan)
     }
 
@@ -101,9 +125,8 @@ impl Plan {
         let nearest = self.sharing.nearest();
         let group_of: Vec<u32> = all.iter().map(|g| groups.at(rest.uv(&g.root))).collect();
         for (index, group) in groups.all().iter().enumerate() {
-            let mine: Vec<&Guide> = all
-                .iter()
-                .zip(&group_of)
+            let numbered = all.iter().enumerate().zip(&group_of);
+            let mine: Vec<(usize, &Guide)> = numbered
                 .filter(|(_, g)| **g as usize == index)
                 .map(|(guide, _)| guide)
                 .collect();
@@ -170,6 +193,12 @@ impl Fields {
                 maker,
                 (r.hair.seed, Channel::Kink),
             )?,
+            preserve: Preserve {
+                frizz: r.frizz.preserve_length,
+                kink: r.kink.preserve_length,
+                splay: r.strand.splay.preserve_length,
+            },
+            flyaway: FlyawayFields::new(&r.flyaway, maker)?,
             strand: StrandFields::new(&r.strand, maker)?,
             color: [
                 maker.color("color.root", &r.color.root)?,

@@ -31,6 +31,14 @@ pub enum Channel {
     FiberPlace = 12,
     /// `strand.randomize`.
     FiberLength = 13,
+    /// `clump.levels[].random`.
+    Clump = 14,
+    /// Whether a hair is a flyaway.
+    Flyaway = 15,
+    /// How steeply it strays.
+    FlyawayHeight = 16,
+    /// Which way it strays.
+    FlyawayAngle = 17,
 }
 
 /// A number in 0..1 for hair `hair` of the groom seeded `seed`.

@@ -5,7 +5,8 @@ use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::curves::Curves;
 use crate::plan::Plan;
-use crate::stages::{cut, frizz, interpolate, kink, scale, thin, world};
+use crate::pose::Moment;
+use crate::stages::{cut, flyaway, frizz, interpolate, kink, length, scale, thin, world};
 use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
 
@@ -14,11 +15,15 @@ use pelage_surface::RootFrame;
 pub(crate) struct Shapes {
     /// The hairs, in local space first, then on the pose; where hairs are multi-strands,
     /// at last their fibres. A curve that is cut ends before its last vertex.
-    curves: Curves,
+    pub curves: Curves,
     /// For each curve, the numbers of its vertices that stay.
     kept: Vec<u32>,
     /// Where each curve's begin there; one more entry than curves.
     kept_starts: Vec<u32>,
+    /// The hairs before kink as the guides at rest have them, where guides are posed.
+    at_rest: Curves,
+    /// Vertices as they were before a stage.
+    before: Vec<Vec3>,
     noise: [Vec<Vec3>; 3],
     bundles: BundleScratch,
     tangents: Vec<Vec3>,
@@ -48,86 +53,135 @@ impl Shapes {
     }
 }
 
-/// Where and when hairs are shaped.
-#[derive(Clone, Copy)]
-pub(crate) struct Moment<'a> {
-    /// Frames of the roots where they differ from those at rest.
-    pub posed: Option<&'a [RootFrame]>,
-    /// In frames.
-    pub time: f32,
-}
-
 impl Plan {
-    /// Shapes the hairs of `capture`.
+    /// Shapes the hairs of `capture`, whose roots have `frames` on the pose.
     ///
     /// Which vertices stay is decided by the shapes at rest, so that it is the same on all
     /// poses and at all times (architecture.md, law 4).
     pub(crate) fn shape(
         &self,
         capture: &Capture,
-        moment: Moment,
+        frames: &[RootFrame],
+        moment: &Moment,
         shapes: &mut Shapes,
         clock: &mut Clock,
     ) {
-        let moves = self.fields.frizz.as_ref().is_some_and(|f| f.is_moving());
-        let differs = moment.posed.is_some() || (moves && moment.time != 0.0);
-        if self.thinning.is_some() && differs {
+        let decided = self.thinning.is_some() && self.differs(moment);
+        if decided {
             let rest = Moment {
-                posed: None,
-                time: 0.0,
+                middles: &self.rest_middles,
+                ..Moment::REST
             };
-            self.make(capture, rest, shapes, clock);
+            self.make(capture, &capture.frames, &rest, shapes, clock);
             self.choose(capture, shapes, clock);
-            self.make(capture, moment, shapes, clock);
-        } else {
-            self.make(capture, moment, shapes, clock);
+        }
+        self.make(capture, frames, moment, shapes, clock);
+        if !decided {
             self.choose(capture, shapes, clock);
         }
     }
 
-    fn make(&self, capture: &Capture, moment: Moment, shapes: &mut Shapes, clock: &mut Clock) {
-        let frames = moment.posed.unwrap_or(&capture.frames);
-        self.bend(capture, moment.time, shapes, clock);
-        let curves = &mut shapes.curves;
+    /// All curves, as they are cut.
+    fn make(
+        &self,
+        capture: &Capture,
+        frames: &[RootFrame],
+        moment: &Moment,
+        shapes: &mut Shapes,
+        clock: &mut Clock,
+    ) {
+        self.hairs(capture, frames, moment, shapes, clock);
+        let started = clock.start();
+        self.bundle(capture, frames, &mut shapes.bundles, &mut shapes.curves);
+        let started = clock.stop(Stage::Strand, started);
+        let fibers = self.fibers();
+        for i in 0..capture.cuts.len() * fibers {
+            cut::cut(capture.cut(i / fibers), shapes.curves.get_mut(i));
+        }
+        clock.stop(Stage::Thin, started);
+    }
+
+    /// The hairs on the pose, without fibres and uncut.
+    pub(crate) fn hairs(
+        &self,
+        capture: &Capture,
+        frames: &[RootFrame],
+        moment: &Moment,
+        shapes: &mut Shapes,
+        clock: &mut Clock,
+    ) {
+        self.bend(capture, moment, shapes, clock);
+        let (before, curves) = (&mut shapes.before, &mut shapes.curves);
         let started = clock.start();
         for (i, frame) in frames.iter().enumerate() {
             world::to_world(frame, curves.get_mut(i));
         }
         let started = clock.stop(Stage::World, started);
-        self.bundle(capture, frames, &mut shapes.bundles, curves);
-        let started = clock.stop(Stage::Strand, started);
-        let fibers = self.fibers();
-        for i in 0..capture.cuts.len() * fibers {
-            cut::cut(capture.cut(i / fibers), curves.get_mut(i));
-        }
-        clock.stop(Stage::Thin, started);
+        self.draw_together(capture, moment.middles, before, curves);
+        clock.stop(Stage::Clump, started);
     }
 
     /// The stages of local space.
-    fn bend(&self, capture: &Capture, time: f32, shapes: &mut Shapes, clock: &mut Clock) {
+    fn bend(&self, capture: &Capture, moment: &Moment, shapes: &mut Shapes, clock: &mut Clock) {
+        let Shapes {
+            curves,
+            at_rest,
+            before,
+            noise,
+            ..
+        } = shapes;
         let started = clock.start();
-        self.interpolate(capture, &mut shapes.curves);
+        self.interpolate(capture, moment.guides, curves);
         let started = clock.stop(Stage::Interpolate, started);
-        let (noise, Curves { vertices, starts }) = (&mut shapes.noise, &mut shapes.curves);
-        let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
-        if let Some(fields) = &self.fields.frizz {
-            frizz::frizz(fields, &capture.frizz, time, range, vertices, noise);
-        }
+        self.frizz(capture, moment.time, noise, before, curves);
         let started = clock.stop(Stage::Frizz, started);
         if let Some(fields) = &self.fields.kink {
-            let (hairs, frames) = (&capture.kinks, &capture.frames);
-            kink::kink(fields, hairs, frames, range, vertices, noise);
+            // Guides that move must not move hairs through the noise.
+            let domain = moment.guides.map(|_| {
+                self.interpolate(capture, None, at_rest);
+                self.frizz(capture, 0.0, noise, before, at_rest);
+                &at_rest.vertices[..]
+            });
+            keep(self.fields.preserve.kink, before, curves, |curves| {
+                let (hairs, frames) = (&capture.kinks, &capture.frames);
+                let Curves { vertices, starts } = curves;
+                let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
+                kink::kink(fields, hairs, frames, range, domain, vertices, noise);
+            });
         }
-        clock.stop(Stage::Kink, started);
+        let started = clock.stop(Stage::Kink, started);
+        for (i, stray) in capture.strays.iter().enumerate() {
+            flyaway::stray(stray, capture.lengths[i], curves.get_mut(i), before);
+        }
+        clock.stop(Stage::Flyaway, started);
     }
 
-    fn interpolate(&self, capture: &Capture, hairs: &mut Curves) {
+    fn frizz(
+        &self,
+        capture: &Capture,
+        time: f32,
+        noise: &mut [Vec<Vec3>; 3],
+        before: &mut Vec<Vec3>,
+        curves: &mut Curves,
+    ) {
+        let Some(fields) = &self.fields.frizz else {
+            return;
+        };
+        keep(self.fields.preserve.frizz, before, curves, |curves| {
+            let Curves { vertices, starts } = curves;
+            let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
+            frizz::frizz(fields, &capture.frizz, time, range, vertices, noise);
+        });
+    }
+
+    /// Hairs as their guides have them, which are those at rest unless others are given.
+    fn interpolate(&self, capture: &Capture, posed: Option<&[Vec<Vec3>]>, hairs: &mut Curves) {
         let segments = |group: u32| self.guides[group as usize].segments;
         hairs.lay_out(capture.roots.iter().map(|root| segments(root.group) + 1));
         for (i, root) in capture.roots.iter().enumerate() {
             let shares = capture.share_starts[i] as usize..capture.share_starts[i + 1] as usize;
-            let hair = hairs.get_mut(i);
-            let guides = &self.guides[root.group as usize].vertices;
+            let (hair, group) = (hairs.get_mut(i), root.group as usize);
+            let guides = posed.map_or(&self.guides[group].vertices, |posed| &posed[group]);
             interpolate::interpolate(guides, &capture.shares[shares], hair);
             scale::scale(capture.scale[i], hair);
         }
@@ -154,5 +208,24 @@ impl Plan {
             shapes.kept_starts.push(shapes.kept.len() as u32);
         }
         clock.stop(Stage::Thin, started);
+    }
+}
+
+/// Bends curves; where their length is preserved, their segments get theirs back.
+fn keep(
+    preserved: bool,
+    before: &mut Vec<Vec3>,
+    curves: &mut Curves,
+    bend: impl FnOnce(&mut Curves),
+) {
+    if preserved {
+        before.clone_from(&curves.vertices);
+    }
+    bend(curves);
+    if preserved {
+        for i in 0..curves.len() {
+            let range = curves.range(i);
+            length::preserve(&before[range], 1.0, curves.get_mut(i));
+        }
     }
 }

@@ -5,7 +5,7 @@
 use pelage::groom::{Groom, Images};
 use pelage::io::{WriteOptions, sink_for};
 use pelage::strands::StreamInfo;
-use pelage::{Plan, Recipe, Report, Request, Sink, generate};
+use pelage::{Plan, Pose, Recipe, Report, Request, Sink, generate};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -50,7 +50,14 @@ fn run(plan: &Plan, threads: usize, sink: &mut dyn Sink) -> Result<Report, Strin
         threads,
         info: StreamInfo::default(),
     };
-    generate(plan, &request, &mut |_| Ok(None), sink, &mut |_| true).map_err(|e| e.to_string())
+    generate(
+        plan,
+        &request,
+        &mut |_| Ok(Pose::default()),
+        sink,
+        &mut |_| true,
+    )
+    .map_err(|e| e.to_string())
 }
 
 /// A USD crate file against a plain write of as many bytes, both synced to disk, in

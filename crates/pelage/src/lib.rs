@@ -5,12 +5,12 @@
 //! picture with [`render`]. The crates below can be used by themselves.
 //!
 //! ```no_run
-//! use pelage::{Collect, generate, load};
+//! use pelage::{Collect, Pose, generate, load};
 //!
 //! let loaded = load("groom.toml".as_ref())?;
 //! let mut strands = Collect::default();
 //! let request = loaded.request(0..1000, 2);
-//! generate(&loaded.plan, &request, &mut |_| Ok(None), &mut strands, &mut |_| true)?;
+//! generate(&loaded.plan, &request, &mut |_| Ok(Pose::default()), &mut strands, &mut |_| true)?;
 //! assert_eq!(strands.strands.len(), 1000);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -31,5 +31,5 @@ pub use pelage_strands as strands;
 pub use pelage_surface as surface;
 
 pub use pelage_groom::recipe::Recipe;
-pub use pelage_groom::{Groom, Plan, Report, Request, RootPlan, generate, write_roots};
+pub use pelage_groom::{Groom, Plan, Pose, Report, Request, RootPlan, generate, write_roots};
 pub use pelage_strands::{Collect, Sink, StrandBuffer};

@@ -21,7 +21,7 @@ pub struct Loaded {
     pub recipe: Recipe,
     /// The plan.
     pub plan: Plan,
-    /// The poses of the surface.
+    /// The poses of the surface and the guides.
     pub poses: PoseFiles,
     /// Up axis and unit, from the recipe or else the mesh.
     pub info: StreamInfo,
@@ -51,12 +51,17 @@ pub fn load(path: &Path) -> Result<Loaded, RecipeError> {
 pub fn load_with(recipe: Recipe) -> Result<Loaded, RecipeError> {
     let surface = Surface::read(&recipe)?;
     let guides = match recipe.guides.source() {
-        Some(GuideSource::Curves(file)) => read_guides(&file.resolved)
+        Some(GuideSource::Curves(file)) => read_guides(&file.resolved, None)
             .map_err(|e| recipe.error_at("guides.curves", e.to_string()))?,
         _ => Vec::new(),
     };
+    let posed = match &recipe.guides.posed {
+        None => PoseSource::Rest,
+        Some(posed) => PoseSource::of_guides(&posed.resolved)
+            .map_err(|e| recipe.error_at("guides.posed", e.to_string()))?,
+    };
     let images = read_images(&recipe, |_| true)?;
-    let (groom, poses, info) = surface.groom(&recipe, images, guides);
+    let (groom, poses, info) = surface.groom(&recipe, images, guides, posed);
     let plan = Plan::new(groom).map_err(|e| recipe.error_at(e.key(), e.to_string()))?;
     Ok(Loaded {
         recipe,
@@ -84,7 +89,7 @@ pub struct LoadedRoots {
 pub fn load_roots(recipe: Recipe) -> Result<LoadedRoots, RecipeError> {
     let surface = Surface::read(&recipe)?;
     let images = read_images(&recipe, RootPlan::needs)?;
-    let (groom, poses, info) = surface.groom(&recipe, images, Vec::new());
+    let (groom, poses, info) = surface.groom(&recipe, images, Vec::new(), PoseSource::Rest);
     let plan = RootPlan::new(groom).map_err(|e| recipe.error_at(e.key(), e.to_string()))?;
     Ok(LoadedRoots {
         recipe,
@@ -108,7 +113,7 @@ impl Surface {
         let rest = read_mesh(&recipe.surface.mesh.resolved, None).map_err(at("surface.mesh"))?;
         let poses = match &recipe.surface.posed {
             None => PoseSource::Rest,
-            Some(posed) => PoseSource::new(&posed.resolved).map_err(at("surface.posed"))?,
+            Some(posed) => PoseSource::of_mesh(&posed.resolved).map_err(at("surface.posed"))?,
         };
         Ok(Self {
             keep_file_normals: keep_file_normals(&rest, &poses),
@@ -122,6 +127,7 @@ impl Surface {
         recipe: &Recipe,
         images: Images,
         guides: Vec<Vec<Vec3>>,
+        posed_guides: PoseSource,
     ) -> (Groom, PoseFiles, StreamInfo) {
         let info = stream_info(recipe, &self.rest);
         let groom = Groom {
@@ -133,7 +139,7 @@ impl Surface {
         };
         (
             groom,
-            PoseFiles::new(self.poses, self.keep_file_normals),
+            PoseFiles::new(self.poses, posed_guides, self.keep_file_normals),
             info,
         )
     }
@@ -156,8 +162,9 @@ fn keep_file_normals(rest: &MeshFile, source: &PoseSource) -> bool {
     has(&rest.mesh) && posed.is_some_and(|mesh| has(&mesh))
 }
 
-fn read_guides(path: &Path) -> Result<Vec<Vec<Vec3>>, ReadError> {
-    let file = read_curves(path, None)?;
+/// The vertices of all curves of a file, at `time` where it has time.
+pub(crate) fn read_guides(path: &Path, time: Option<f64>) -> Result<Vec<Vec<Vec3>>, ReadError> {
+    let file = read_curves(path, time)?;
     let mut guides = Vec::new();
     for set in &file.sets {
         let strands = strands_through_vertices(set);

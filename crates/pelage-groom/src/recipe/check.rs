@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::Recipe;
+use super::clump::ClumpAround;
 use super::reader::Reader;
 use super::segments::Segments;
 
@@ -10,6 +11,7 @@ use super::segments::Segments;
 pub(crate) fn check(recipe: &Recipe, reader: &mut Reader<'_>) {
     check_guides(recipe, reader);
     check_groups(recipe, reader);
+    check_clumps(recipe, reader);
     check_ramps(recipe, reader);
 }
 
@@ -28,9 +30,15 @@ fn check_guides(recipe: &Recipe, reader: &mut Reader<'_>) {
         }
         _ => {}
     }
-    if guides.grow.is_some() && guides.curves.is_none() && guides.tolerance.is_some() {
-        let span = span(reader, "guides.tolerance");
-        reader.lonely("guides.tolerance", span, "guides.curves");
+    let of_curves = [
+        ("guides.tolerance", guides.tolerance.is_some()),
+        ("guides.posed", guides.posed.is_some()),
+    ];
+    for (key, _) in of_curves.into_iter().filter(|(_, is_there)| *is_there) {
+        if guides.grow.is_some() && guides.curves.is_none() {
+            let span = span(reader, key);
+            reader.lonely(key, span, "guides.curves");
+        }
     }
 }
 
@@ -43,21 +51,49 @@ fn check_groups(recipe: &Recipe, reader: &mut Reader<'_>) {
     }
 }
 
+/// A level of clumps says where they are, once.
+fn check_clumps(recipe: &Recipe, reader: &mut Reader<'_>) {
+    for (i, level) in recipe.clump.levels.iter().enumerate() {
+        let table = format!("clump.levels[{i}]");
+        let needed = match level.around {
+            ClumpAround::Points => Some(("size", "how far clumps are apart")),
+            ClumpAround::Map => Some(("map", "the image whose colours are clumps")),
+            ClumpAround::Guides => None,
+        };
+        for (name, is_there) in [("size", level.size.is_some()), ("map", level.map.is_some())] {
+            let key = format!("{table}.{name}");
+            match needed.filter(|(needed, _)| *needed == name) {
+                Some((_, what)) if !is_there && !reader.refused(&key) => {
+                    reader.missing(&key, span(reader, &table), Some(what));
+                }
+                None if is_there => {
+                    let message = format!("says nothing of clumps around {}", level.around);
+                    reader.contradiction(&key, span(reader, &key), message);
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
 /// A ramp tells the whole strand, so nothing else may.
 fn check_ramps(recipe: &Recipe, reader: &mut Reader<'_>) {
-    let pairs: [(&str, bool, &[&str]); 6] = [
-        ("frizz", recipe.frizz.root.ramp.is_some(), &["tip"]),
-        ("kink", recipe.kink.root.ramp.is_some(), &["tip"]),
-        ("color", recipe.color.root.ramp.is_some(), &["tip"]),
-        ("opacity", recipe.opacity.root.ramp.is_some(), &["tip"]),
-        ("width", recipe.width.root.ramp.is_some(), &["tip"]),
+    let mut ramps = vec![
+        ("frizz".to_owned(), recipe.frizz.root.ramp.is_some()),
+        ("kink".to_owned(), recipe.kink.root.ramp.is_some()),
+        ("color".to_owned(), recipe.color.root.ramp.is_some()),
+        ("opacity".to_owned(), recipe.opacity.root.ramp.is_some()),
+        ("width".to_owned(), recipe.width.root.ramp.is_some()),
         (
-            "strand.splay",
+            "strand.splay".to_owned(),
             recipe.strand.splay.root.ramp.is_some(),
-            &["center", "tip"],
         ),
     ];
-    for (section, _, others) in pairs.into_iter().filter(|(_, ramp, _)| *ramp) {
+    for (i, level) in recipe.clump.levels.iter().enumerate() {
+        ramps.push((format!("clump.levels[{i}]"), level.root.ramp.is_some()));
+    }
+    for (section, _) in ramps.into_iter().filter(|(_, ramp)| *ramp) {
+        let others = ["center", "tip"];
         for other in others.iter().map(|other| format!("{section}.{other}")) {
             if reader.spans.contains_key(&other) {
                 let span = span(reader, &other);

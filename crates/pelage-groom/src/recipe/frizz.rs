@@ -17,6 +17,8 @@ section! {
             => Rule::at_least(0.0).length().with_ramp(),
         /// Amount at the tip (document 004: Tip_Frizz).
         pub tip: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).length(),
+        /// Whether hairs keep their length, which frizz makes longer.
+        pub preserve_length: bool = false => Rule::ANY,
         /// Noise that moves with time.
         pub animation: FrizzAnimation = FrizzAnimation::default() => Rule::ANY,
     }

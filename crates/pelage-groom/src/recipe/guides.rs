@@ -11,6 +11,10 @@ section! {
         /// The file with the guide curves, each starting on the rest mesh.
         /// Excludes `grow`.
         pub curves: Option<FilePath> = None => Rule::ANY,
+        /// The guides in the pose to be dressed: as many as in `curves` and in the same
+        /// order, in one file, a file with time samples, or one file a frame
+        /// (`guides.####.usda`). Left out, guides move with the skin. Goes with `curves`.
+        pub posed: Option<FilePath> = None => Rule::ANY,
         /// How far from the rest mesh a guide may start, in units of the mesh; its
         /// root is the closest point. Left out, a hundredth of the diagonal of the
         /// mesh's box. Goes with `curves`.

@@ -17,5 +17,7 @@ section! {
             => Rule::at_least(0.0).length().with_ramp(),
         /// Amount at the tip (document 004: Tip_Kink).
         pub tip: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).length(),
+        /// Whether hairs keep their length, which kink makes longer.
+        pub preserve_length: bool = false => Rule::ANY,
     }
 }

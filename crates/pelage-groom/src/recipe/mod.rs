@@ -51,6 +51,7 @@
 //! [`Recipe::parse`] is the one that knows lines and columns.
 
 mod check;
+mod clump;
 mod color;
 mod coloring;
 mod comb;
@@ -59,6 +60,7 @@ mod entry;
 mod error;
 mod excerpt;
 mod facing;
+mod flyaway;
 mod frizz;
 mod group_map;
 mod groups;
@@ -69,6 +71,7 @@ mod interpolation;
 mod kink;
 mod length;
 mod limits;
+mod list;
 mod look;
 mod map;
 mod number;
@@ -94,11 +97,13 @@ mod syntax;
 mod template;
 mod word;
 
+pub use clump::{Clump, ClumpAround, ClumpLevel};
 pub use coloring::{ColorSpace, Coloring, Mutant, Variation};
 pub use comb::Comb;
 pub use error::{Problem, ProblemKind, RecipeError};
 pub use excerpt::Place;
 pub use facing::Facing;
+pub use flyaway::Flyaway;
 pub use frizz::{Frizz, FrizzAnimation};
 pub use group_map::GroupMap;
 pub use groups::Groups;
@@ -154,6 +159,10 @@ section::table! {
         pub frizz: Frizz = Frizz::default() => Rule::ANY,
         /// Noise along each hair.
         pub kink: Kink = Kink::default() => Rule::ANY,
+        /// Hairs drawn together.
+        pub clump: Clump = Clump::default() => Rule::ANY,
+        /// Hairs that stray.
+        pub flyaway: Flyaway = Flyaway::default() => Rule::ANY,
         /// Colour from root to tip.
         pub color: Coloring = Coloring::default() => Rule::ANY,
         /// Opacity from root to tip.

@@ -206,9 +206,12 @@ mod tests {
         fn keys(path: &str, schema: &Value, all: &mut Vec<String>) {
             for (name, key) in schema["properties"].as_object().into_iter().flatten() {
                 let path = format!("{path}{name}");
-                match key.get("properties") {
-                    Some(_) => keys(&format!("{path}."), key, all),
-                    None => all.push(path),
+                if key.get("properties").is_some() {
+                    keys(&format!("{path}."), key, all);
+                } else if key["items"].get("properties").is_some() {
+                    keys(&format!("{path}[]."), &key["items"], all);
+                } else {
+                    all.push(path);
                 }
             }
         }

@@ -105,8 +105,13 @@ impl<'s> Reader<'s> {
         name: &str,
     ) -> Option<&'v Spanned<DeValue<'d>>> {
         let value = table.get(name)?;
-        self.spans.insert(key.to_owned(), value.span());
+        self.remember(key, value);
         Some(value)
+    }
+
+    /// Remembers the place of `value` as that of `key`.
+    pub(crate) fn remember(&mut self, key: &str, value: &Spanned<DeValue<'_>>) {
+        self.spans.insert(key.to_owned(), value.span());
     }
 
     /// Reports every key of `table` that is not among `allowed`; false if none.

@@ -37,5 +37,7 @@ section! {
         pub center: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).length(),
         /// Distance at the tip (document 004: Tip_Splay).
         pub tip: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).length(),
+        /// Whether fibres have the length of their hair, as wide or twisted bundles do not.
+        pub preserve_length: bool = false => Rule::ANY,
     }
 }

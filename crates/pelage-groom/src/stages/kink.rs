@@ -12,20 +12,23 @@ use pelage_surface::RootFrame;
 use std::ops::Range;
 
 /// Moves the vertices of hairs; hair `i` has the vertices `range(i)` of `local` and the
-/// frame `frames[i]` at rest. `places` and `values` are scratch.
+/// frame `frames[i]` at rest. `rest` are the vertices at rest where those of `local` are
+/// others. `places` and `values` are scratch.
 pub fn kink(
     fields: &NoiseFields,
     hairs: &[HairNoise],
     frames: &[RootFrame],
     range: impl Fn(usize) -> Range<usize>,
+    rest: Option<&[Vec3]>,
     local: &mut [Vec3],
     [places, values, _]: &mut [Vec<Vec3>; 3],
 ) {
     places.resize(local.len(), Vec3::ZERO);
     values.resize(local.len(), Vec3::ZERO);
+    let rest = rest.unwrap_or(local);
     for (i, (hair, frame)) in hairs.iter().zip(frames).enumerate() {
         let range = range(i);
-        for (place, vertex) in places[range.clone()].iter_mut().zip(&local[range]) {
+        for (place, vertex) in places[range.clone()].iter_mut().zip(&rest[range]) {
             *place = hair.frequency * (frame.position + frame.vector(*vertex));
         }
     }

@@ -3,12 +3,15 @@
 //! A stage is a pure function over slices: inputs first, outputs last. Its header says
 //! what it does, where that comes from, and the space and unit of its arrays.
 
+pub mod clump;
 pub mod cut;
 pub mod facing;
+pub mod flyaway;
 pub mod frames;
 pub mod frizz;
 pub mod interpolate;
 pub mod kink;
+pub mod length;
 pub mod look;
 pub mod natural;
 pub mod roots;

@@ -7,11 +7,16 @@ use crate::maps::ScalarField;
 use crate::random::{Channel, uniform};
 use pelage_curves::{Vec2, Vec3};
 
-/// The factor of hair `hair` with its root at `uv`.
+/// The amount at `uv`, at least 0.
 #[inline]
-pub fn factor(amount: &ScalarField, random: &ScalarField, uv: Vec2, seed: u64, hair: u64) -> f32 {
-    let shrink = random.at(uv).clamp(0.0, 1.0) * uniform(seed, hair, Channel::Scale);
-    amount.at(uv).max(0.0) * (1.0 - shrink)
+pub fn amount(amount: &ScalarField, uv: Vec2) -> f32 {
+    amount.at(uv).max(0.0)
+}
+
+/// What chance leaves of it to hair `hair` with its root at `uv`, 0..=1.
+#[inline]
+pub fn random(random: &ScalarField, uv: Vec2, seed: u64, hair: u64) -> f32 {
+    1.0 - random.at(uv).clamp(0.0, 1.0) * uniform(seed, hair, Channel::Scale)
 }
 
 /// Scales the vertices of a hair about its root.

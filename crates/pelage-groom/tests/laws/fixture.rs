@@ -41,7 +41,7 @@ const SHARED: &str = "interpolation = { method = 'natural-neighbor', facing = tr
     color.mutant = { percent = 20.0 }
     color.variation = { hue = 20.0, saturation = 0.1, value = 0.1 }";
 
-/// Multi-strands, with everything that shapes them.
+/// Multi-strands in clumps, with everything that shapes them.
 const STRANDS: &str = "frizz = { tip = 0.2, animation = { amount = 0.5, speed = 1.0 } }
     kink = { tip = 0.05, frequency = [9, 9, 9] }
     cut.length = { map = 'length.png' }
@@ -53,6 +53,17 @@ const STRANDS: &str = "frizz = { tip = 0.2, animation = { amount = 0.5, speed = 
     aspect = 0.5
     offset = 0.1
     randomize = 0.4
+    [[clump.levels]]
+    size = 0.5
+    root = 0.2
+    tip = { value = 0.9, map = 'length.png' }
+    random = 0.3
+    [[clump.levels]]
+    around = 'guides'
+    tip = 0.5
+    preserve_length = true
+    [flyaway]
+    percent = 10.0
     [color.mutant]
     percent = 20.0
 ";
@@ -141,29 +152,54 @@ impl Fixture<'_> {
 
     /// The plan of the groom.
     pub fn plan(&self) -> Plan {
-        let mut images = Images::new();
-        let mut add = |name: &str, channels, f: &dyn Fn(usize, usize, usize) -> f32| {
-            let size = 64;
-            let texel = |i: usize| f(i / channels % size, i / channels / size, i % channels);
-            let texels = (0..size * size * channels).map(texel).collect();
-            let map = ImageMap::new(size as u32, size as u32, channels as u32, texels, false);
-            images.insert(PathBuf::from(name), Arc::new(map.unwrap()));
-        };
-        add("density.png", 1, &|x, y, _| {
-            if (x / 8 + y / 8) % 2 == 0 { 1.0 } else { 0.2 }
-        });
-        add("one.png", 1, &|_, _, _| 1.0);
-        add("length.png", 1, &|x, _, _| 0.5 + x as f32 / 128.0);
-        add("color.png", 3, &|x, y, k| [x, y, x + y][k] as f32 / 256.0);
         let groom = Groom {
             recipe: self.recipe(),
             mesh: self.mesh(),
             keep_file_normals: true,
-            images,
+            images: images(),
             guides: Vec::new(),
         };
         Plan::new(groom).unwrap()
     }
+}
+
+/// Every map that recipes here name.
+fn images() -> Images {
+    let mut images = Images::new();
+    let mut add = |name: &str, channels, f: &dyn Fn(usize, usize, usize) -> f32| {
+        let size = 64;
+        let texel = |i: usize| f(i / channels % size, i / channels / size, i % channels);
+        let texels = (0..size * size * channels).map(texel).collect();
+        let map = ImageMap::new(size as u32, size as u32, channels as u32, texels, false);
+        images.insert(PathBuf::from(name), Arc::new(map.unwrap()));
+    };
+    add("density.png", 1, &|x, y, _| {
+        if (x / 8 + y / 8) % 2 == 0 { 1.0 } else { 0.2 }
+    });
+    add("one.png", 1, &|_, _, _| 1.0);
+    add("length.png", 1, &|x, _, _| 0.5 + x as f32 / 128.0);
+    add("color.png", 3, &|x, y, k| [x, y, x + y][k] as f32 / 256.0);
+    images
+}
+
+/// A plan of the ball with guides along its normals, which stay where they are whatever
+/// the recipe says of roots; and those guides.
+pub fn along_normals(count: u64, more: &str) -> (Plan, Vec<Vec<Vec3>>) {
+    let mesh = Fixture::default().mesh();
+    let along = |p: Vec3| (0..5).map(|i| p * (1.0 + 0.1 * i as f32)).collect();
+    let places = mesh.positions.iter().step_by(7);
+    let guides: Vec<Vec<Vec3>> = places.map(|&p| along(p.into())).collect();
+    let text = format!(
+        "surface.mesh = 'ball.obj'\nguides.curves = 'guides.usda'\nhair.count = {count}\n{more}"
+    );
+    let groom = Groom {
+        recipe: Recipe::parse(&text, Path::new("groom.toml")).unwrap(),
+        mesh,
+        keep_file_normals: true,
+        images: images(),
+        guides: guides.clone(),
+    };
+    (Plan::new(groom).unwrap(), guides)
 }
 
 /// Asks for `hairs` on `threads` threads, as a still.
@@ -180,7 +216,14 @@ pub fn request(hairs: Range<u64>, threads: usize) -> Request {
 pub fn collect(plan: &Plan, hairs: Range<u64>, threads: usize) -> StrandBuffer {
     let mut sink = Collect::default();
     let request = request(hairs, threads);
-    generate(plan, &request, &mut |_| Ok(None), &mut sink, &mut |_| true).unwrap();
+    generate(
+        plan,
+        &request,
+        &mut |_| Ok(Pose::default()),
+        &mut sink,
+        &mut |_| true,
+    )
+    .unwrap();
     sink.strands
 }
 
@@ -190,12 +233,12 @@ pub fn strands(plan: &Plan, hairs: &[u64], pose: Option<&Mesh>) -> StrandBuffer 
     let mut out = StrandBuffer::new();
     plan.capture_listed(hairs, &mut capture, &mut clock);
     let pose = Pose {
-        surface: pose,
-        time: 0.0,
+        surface: pose.map(|mesh| Arc::new(mesh.clone())),
+        ..Pose::default()
     };
     plan.evaluate(
         &capture,
-        pose,
+        &plan.posed(&pose).unwrap(),
         &mut Scratch::default(),
         &mut out,
         &mut clock,

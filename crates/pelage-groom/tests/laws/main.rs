@@ -3,9 +3,11 @@
 // Clippy's exception for tests does not reach the helpers of an integration test.
 #![allow(clippy::unwrap_used)]
 
+mod clump;
 mod fixture;
 mod interpolation;
 mod look;
+mod pose;
 mod strand;
 
 use fixture::{Fixture, collect, fibers, kinds, moved, request, strands};
@@ -142,9 +144,13 @@ fn law_6_bounds_are_a_sink_and_hold_the_curves() {
     let plan = plan();
     let mut bounds = BoundsSink::default();
     let request = request(0..1000, 2);
-    generate(&plan, &request, &mut |_| Ok(None), &mut bounds, &mut |_| {
-        true
-    })
+    generate(
+        &plan,
+        &request,
+        &mut |_| Ok(Pose::default()),
+        &mut bounds,
+        &mut |_| true,
+    )
     .unwrap();
     let all = bounds.all();
     let strands = collect(&plan, 0..1000, 1);
@@ -385,10 +391,11 @@ fn thinning_drops_vertices_where_hairs_are_straight_the_same_ones_in_all_frames(
     thin.capture(0..2000, &mut capture, &mut clock);
     for time in [1.0, 5.0, 40.0] {
         let pose = Pose {
-            surface: None,
             time,
+            ..Pose::default()
         };
-        thin.evaluate(&capture, pose, &mut scratch, &mut out, &mut clock);
+        let posed = thin.posed(&pose).unwrap();
+        thin.evaluate(&capture, &posed, &mut scratch, &mut out, &mut clock);
         assert_eq!(out.offsets, thinned.offsets);
         assert!(out.points != thinned.points);
     }
@@ -406,10 +413,13 @@ fn animated_frizz_moves_with_time_and_what_does_not_move_stays() {
         let (mut capture, mut clock) = (Capture::default(), Clock::default());
         let (mut scratch, mut out) = (Scratch::default(), StrandBuffer::new());
         plan.capture(0..500, &mut capture, &mut clock);
-        let surface = None;
+        let pose = Pose {
+            time,
+            ..Pose::default()
+        };
         plan.evaluate(
             &capture,
-            Pose { surface, time },
+            &plan.posed(&pose).unwrap(),
             &mut scratch,
             &mut out,
             &mut clock,
@@ -515,7 +525,7 @@ fn a_failing_sink_ends_the_run_with_its_words() {
         let run = generate(
             &plan,
             &request,
-            &mut |_| Ok(None),
+            &mut |_| Ok(Pose::default()),
             &mut Full(0),
             &mut |_| true,
         );
@@ -541,9 +551,13 @@ fn what_a_run_announces_is_what_comes_where_no_hair_is_left_out() {
     }
     let mut sink = Announced::default();
     let request = request(100..1500, 1);
-    let report = generate(&plan(), &request, &mut |_| Ok(None), &mut sink, &mut |_| {
-        true
-    })
+    let report = generate(
+        &plan(),
+        &request,
+        &mut |_| Ok(Pose::default()),
+        &mut sink,
+        &mut |_| true,
+    )
     .unwrap();
     assert_eq!(report.dropped.total(), 0);
     let came = Amount {
@@ -563,7 +577,7 @@ fn a_reused_capture_gives_what_a_fresh_one_gives() {
         plan.capture(range.clone(), &mut capture, &mut clock);
         plan.evaluate(
             &capture,
-            Pose::default(),
+            &plan.posed(&Pose::default()).unwrap(),
             &mut scratch,
             &mut out,
             &mut clock,

@@ -47,7 +47,7 @@ proptest! {
         let ahead = Recipe::parse_ahead(&text, file);
         let ahead = ahead.map_err(|error| TestCaseError::fail(format!("{text}\n{error}")))?;
         sections_survive!(ahead: surface guides hair display roots groups interpolation cut scale
-            frizz kink color opacity width strand output voxels);
+            frizz kink clump flyaway color opacity width strand output voxels);
         prop_assert_eq!(&Recipe::parse_ahead(&ahead.to_toml(), file).unwrap(), &ahead);
         prop_assert_eq!(toml::from_str::<Recipe>(&text).is_ok(), ahead.unbuilt().is_empty());
 

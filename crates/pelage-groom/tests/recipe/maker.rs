@@ -33,6 +33,7 @@ impl<'s> Maker<'s> {
             guides.remove("grow");
         } else if guides.contains_key("grow") {
             guides.remove("tolerance");
+            guides.remove("posed");
         } else {
             guides.insert("curves".into(), json!("guides.usda"));
         }
@@ -40,6 +41,22 @@ impl<'s> Maker<'s> {
             && !groups.contains_key("map")
         {
             groups.remove("segments");
+        }
+        let levels = recipe.pointer_mut("/clump/levels");
+        for level in levels.and_then(Value::as_array_mut).into_iter().flatten() {
+            let level = level.as_object_mut().unwrap();
+            let around = level
+                .get("around")
+                .and_then(Value::as_str)
+                .unwrap_or("points");
+            let (size, map) = (around == "points", around == "map");
+            level.retain(|name, _| (map || name != "map") && (size || name != "size"));
+            if size {
+                level.insert("size".into(), json!(0.25));
+            }
+            if map {
+                level.insert("map".into(), json!(FILES[0]));
+            }
         }
         recipe
     }
@@ -103,7 +120,7 @@ impl<'s> Maker<'s> {
     }
 
     fn list(&mut self, schema: &Value) -> Value {
-        let least = schema["minItems"].as_u64().unwrap();
+        let least = schema["minItems"].as_u64().unwrap_or(0);
         let most = schema["maxItems"].as_u64().unwrap_or(least + 3);
         let count = least + self.below(most - least + 1);
         let items = &schema["items"];

@@ -75,9 +75,9 @@ impl Job {
         };
         let mut job = Self::load(recipe, args.run.threads, say)?;
         job.request.hairs = args.run.hairs(job.loaded.plan.count(), "--count")?;
-        if frames.is_empty() && args.run.frame.is_none() && job.loaded.poses.source().is_animated()
-        {
-            bail!("surface.posed has a pose for each frame: say which with --frame or --frames");
+        let animated = job.loaded.poses.animated_key();
+        if let Some(key) = animated.filter(|_| frames.is_empty() && args.run.frame.is_none()) {
+            bail!("{key} has a pose for each frame: say which with --frame or --frames");
         }
         job.request.frame = args.run.frame.map_or(0.0, |f| f as f64);
         job.request.info.frames = frames;
@@ -185,7 +185,7 @@ impl Job {
         let loaded = &mut self.loaded;
         let posed = loaded
             .poses
-            .pose(&loaded.recipe, loaded.plan.rest(), frame)?;
+            .surface(&loaded.recipe, loaded.plan.rest(), frame)?;
         let surface = posed.as_deref().unwrap_or(loaded.plan.rest());
         let up = self.request.info.up_axis;
         picture::draw(

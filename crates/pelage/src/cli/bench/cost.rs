@@ -5,7 +5,7 @@ use super::measure::fastest;
 use super::scenes::Scene;
 use crate::cli::stats::{forget_peak_memory, peak_memory};
 use anyhow::Result;
-use pelage::groom::{Capture, Clock, Pose, Scratch, Stage};
+use pelage::groom::{Capture, Clock, Pose, Posed, Scratch, Stage};
 use pelage::strands::{Null, StreamInfo};
 use pelage::{Plan, Request, Sink, StrandBuffer, generate};
 use rayon::prelude::*;
@@ -79,7 +79,13 @@ pub fn cold(plan: &Plan, threads: usize, runs: usize) -> Result<Cold> {
     let mut best = (f64::INFINITY, Clock::default());
     for _ in 0..runs {
         let started = Instant::now();
-        let report = generate(plan, &request, &mut |_| Ok(None), &mut Null, &mut |_| true)?;
+        let report = generate(
+            plan,
+            &request,
+            &mut |_| Ok(Pose::default()),
+            &mut Null,
+            &mut |_| true,
+        )?;
         let seconds = started.elapsed().as_secs_f64();
         if seconds < best.0 {
             best = (seconds, report.clock);
@@ -106,43 +112,45 @@ pub fn captured(plan: &Plan) -> Vec<Capture> {
 }
 
 /// Seconds of the fastest run that evaluated all of `captures` into the null sink.
-pub fn warm(plan: &Plan, captures: &[Capture], threads: usize, runs: usize) -> f64 {
+pub fn warm(plan: &Plan, captures: &[Capture], threads: usize, runs: usize) -> Result<f64> {
     let share = captures.len().div_ceil(threads).max(1);
-    fastest(runs, || {
+    let posed = plan.posed(&Pose::default())?;
+    let posed = &posed;
+    Ok(fastest(runs, || {
         let started = Instant::now();
         std::thread::scope(|scope| {
             for captures in captures.chunks(share) {
-                scope.spawn(move || evaluate(plan, captures));
+                scope.spawn(move || evaluate(plan, posed, captures));
             }
         });
         started.elapsed().as_secs_f64()
-    })
+    }))
 }
 
-fn evaluate(plan: &Plan, captures: &[Capture]) {
+fn evaluate(plan: &Plan, posed: &Posed, captures: &[Capture]) {
     let (mut scratch, mut strands) = (Scratch::default(), StrandBuffer::default());
     for capture in captures {
         let clock = &mut Clock::default();
-        plan.evaluate(capture, Pose::default(), &mut scratch, &mut strands, clock);
+        plan.evaluate(capture, posed, &mut scratch, &mut strands, clock);
         // It takes everything.
         let _ = Null.write(std::hint::black_box(&strands));
     }
 }
 
 /// Bytes that a hair of `scene` has in the arrays handed to the sink.
-pub fn bytes_of_a_hair(scene: &Scene) -> f64 {
+pub fn bytes_of_a_hair(scene: &Scene) -> Result<f64> {
     let plan = &scene.plan;
     let (mut capture, mut strands) = (Capture::default(), StrandBuffer::default());
     let clock = &mut Clock::default();
     plan.capture(0..CHUNK.min(plan.count()), &mut capture, clock);
     plan.evaluate(
         &capture,
-        Pose::default(),
+        &plan.posed(&Pose::default())?,
         &mut Scratch::default(),
         &mut strands,
         clock,
     );
-    strands.bytes() as f64 / strands.len().max(1) as f64
+    Ok(strands.bytes() as f64 / strands.len().max(1) as f64)
 }
 
 /// Bytes a second, read and written, of `threads` threads that each copy a large array.

@@ -94,7 +94,7 @@ pub fn run(quick: bool, say: &Say) -> Result<Results> {
     for scene in &scenes {
         let captures = captured(&scene.plan);
         for &n in &threads {
-            let seconds = warm(&scene.plan, &captures, n, effort.runs);
+            let seconds = warm(&scene.plan, &captures, n, effort.runs)?;
             rows.push(Row::new(scene, n, &colds[rows.len()], seconds));
             bar.set((colds.len() + rows.len()) as u64);
         }
@@ -103,7 +103,7 @@ pub fn run(quick: bool, say: &Say) -> Result<Results> {
         bytes: pairs
             .iter()
             .map(|(scene, _)| bytes_of_a_hair(scene))
-            .collect(),
+            .collect::<Result<_>>()?,
         rows,
         copying,
         machine,

@@ -55,13 +55,17 @@ impl Job {
         let wanted = args.run.hairs(recipe.hair.count, "-n")?;
         let mut loaded = load_roots(recipe)?;
         loaded.plan.notes().iter().for_each(|note| say.note(note));
-        if args.run.frame.is_none() && loaded.poses.source().is_animated() {
-            bail!("surface.posed has a pose for each frame: say which with --frame");
+        if let Some(key) = loaded
+            .poses
+            .animated_key()
+            .filter(|_| args.run.frame.is_none())
+        {
+            bail!("{key} has a pose for each frame: say which with --frame");
         }
         let frame = args.run.frame.map_or(0.0, |f| f as f64);
         let pose = loaded
             .poses
-            .pose(&loaded.recipe, loaded.plan.rest(), frame)?;
+            .surface(&loaded.recipe, loaded.plan.rest(), frame)?;
         Ok(Self {
             request: Request {
                 frame: 0.0,

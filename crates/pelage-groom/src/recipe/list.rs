@@ -1,0 +1,69 @@
+//! Lists of tables: `[[section.key]]` in a `groom.toml`.
+
+use std::path::Path;
+
+use schemars::{Schema, SchemaGenerator};
+use serde::Serialize;
+use serde_json::json;
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::entry::{Entry, Leaf, Rule};
+use super::outline::Told;
+use super::reader::Reader;
+
+/// Lists of sections, entry `i` named `key[i]`. A list is empty where the key is absent.
+impl<T: Entry + Default + Serialize> Entry for Vec<T> {
+    fn read(
+        &mut self,
+        value: &Spanned<DeValue<'_>>,
+        key: &str,
+        rule: Rule,
+        reader: &mut Reader<'_>,
+    ) {
+        let Some(items) = value.get_ref().as_array() else {
+            return reader.wrong_type(key, value, "a list of tables".to_owned());
+        };
+        self.clear();
+        for (i, item) in items.iter().enumerate() {
+            let name = format!("{key}[{i}]");
+            let mut entry = T::default();
+            reader.remember(&name, item);
+            entry.read(item, &name, rule, reader);
+            self.push(entry);
+        }
+    }
+
+    fn schema(&self, rule: Rule, generator: &mut SchemaGenerator) -> Schema {
+        schemars::json_schema!({
+            "type": "array",
+            "items": T::default().schema(rule, generator),
+            "default": json!([]),
+        })
+    }
+
+    fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
+        let mut all = Leaf::of(key, self, doc);
+        for (i, item) in self.iter().enumerate() {
+            item.walk(&format!("{key}[{i}]"), doc, &mut |leaf| {
+                all.maps.extend(leaf.maps);
+            });
+        }
+        visit(all);
+    }
+
+    fn outline(
+        &self,
+        key: &str,
+        doc: &'static str,
+        rule: Rule,
+        generator: &mut SchemaGenerator,
+        tell: &mut dyn FnMut(Told),
+    ) {
+        T::default().outline(&format!("{key}[]"), doc, rule, generator, tell);
+    }
+
+    fn settle(&mut self, folder: &Path) {
+        self.iter_mut().for_each(|item| item.settle(folder));
+    }
+}
