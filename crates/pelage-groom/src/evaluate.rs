@@ -18,11 +18,14 @@ use pelage_surface::RootFrame;
 pub struct Scratch {
     shapes: Shapes,
     posed: Vec<RootFrame>,
+    /// The hair of each curve, by its number in the chunk.
+    hairs: Vec<u32>,
     frames: FrameScratch,
 }
 
 impl Plan {
-    /// Writes the strands of `capture` on a pose into `out`, which is emptied first.
+    /// Writes the strands of `capture` on a pose into `out`, which is emptied first, and
+    /// gives the number of hairs that are left out because they have degenerated.
     pub fn evaluate(
         &self,
         capture: &Capture,
@@ -30,11 +33,12 @@ impl Plan {
         scratch: &mut Scratch,
         out: &mut StrandBuffer,
         clock: &mut Clock,
-    ) {
+    ) -> u64 {
         let moment = posed.moment();
         let Scratch {
             shapes,
             posed,
+            hairs,
             frames: side_by_side,
         } = scratch;
         let started = clock.start();
@@ -42,24 +46,39 @@ impl Plan {
         clock.stop(Stage::World, started);
         self.shape(capture, frames, &moment, shapes, clock);
         let started = clock.start();
-        self.lay_out(capture, shapes, out);
-        self.color(capture, shapes, out);
+        self.lay_out(capture, shapes, hairs, out);
         let started = clock.stop(Stage::Look, started);
         if self.normals {
-            let (points, fibers) = (bytemuck::cast_slice(&out.points), self.fibers());
+            let points = bytemuck::cast_slice(&out.points);
             let normals = bytemuck::cast_slice_mut(&mut out.normals);
-            let first = |i: usize| frames[i / fibers].tangent;
+            let first = |i: usize| frames[hairs[i] as usize].tangent;
             frames::normals(first, points, &out.offsets, side_by_side, normals);
         }
         clock.stop(Stage::Frames, started);
+        (capture.len() - out.len() / self.fibers()) as u64
     }
 
-    /// Every array of `out` gets its length here, and those of single strands their values.
-    fn lay_out(&self, capture: &Capture, shapes: &Shapes, out: &mut StrandBuffer) {
+    /// Writes everything but normals, which get their length; and the number of each
+    /// curve's hair in the chunk to `hairs`.
+    fn lay_out(
+        &self,
+        capture: &Capture,
+        shapes: &Shapes,
+        hairs: &mut Vec<u32>,
+        out: &mut StrandBuffer,
+    ) {
         out.clear();
+        hairs.clear();
         shapes.write(&mut out.points);
-        let mut ends = shapes.offsets()[1..].iter().enumerate();
-        for root in &capture.roots {
+        let vertices = out.points.len();
+        out.widths.resize(vertices, 0.0);
+        out.colors.resize(vertices, [0.0; 3]);
+        out.opacities.resize(vertices, 0.0);
+        if self.normals {
+            out.normals.resize(vertices, [0.0; 3]);
+        }
+        let fibers = self.fibers();
+        for (hair, root) in capture.roots.iter().enumerate() {
             let meta = StrandMeta {
                 hair_id: root.hair,
                 root_uv: root.uv.to_array(),
@@ -69,41 +88,39 @@ impl Plan {
                 root_rest: root.rest.to_array(),
                 ..StrandMeta::default()
             };
-            for (fiber, (i, &end)) in ends.by_ref().take(self.fibers()).enumerate() {
-                let place = capture.fibers.get(i).map(|fiber| fiber.place.to_array());
+            for fiber in 0..fibers {
+                let curve = hair * fibers + fiber;
+                if shapes.stay.numbers(curve).is_empty() {
+                    continue;
+                }
+                let place = capture.fibers.get(curve);
                 out.push_meta(&StrandMeta {
                     strand_id: fiber as u32,
-                    strand_uv: place.unwrap_or_default(),
+                    strand_uv: place.map_or([0.0; 2], |fiber| fiber.place.to_array()),
                     ..meta
                 });
                 // `push_meta` closes a strand at the points present, which are all.
                 if let Some(last) = out.offsets.last_mut() {
-                    *last = end;
+                    *last = shapes.stay.offsets()[curve + 1];
                 }
+                hairs.push(hair as u32);
+                self.color(capture, hair, shapes.stay.numbers(curve), out);
             }
-        }
-        let vertices = out.points.len();
-        out.widths.resize(vertices, 0.0);
-        out.colors.resize(vertices, [0.0; 3]);
-        out.opacities.resize(vertices, 0.0);
-        if self.normals {
-            out.normals.resize(vertices, [0.0; 3]);
         }
     }
 
-    fn color(&self, capture: &Capture, shapes: &Shapes, out: &mut StrandBuffer) {
-        let fibers = self.fibers();
-        for i in 0..out.len() {
-            let (hair, range) = (i / fibers, out.vertices(i));
-            look::along(
-                &capture.looks[hair],
-                shapes.numbers(i),
-                self.guides[capture.roots[hair].group as usize].segments,
-                capture.cut(hair),
-                &mut out.colors[range.clone()],
-                &mut out.opacities[range.clone()],
-                &mut out.widths[range],
-            );
-        }
+    /// Writes the looks of the last curve of `out`, whose vertices had `numbers` in hair
+    /// number `hair` of the chunk.
+    fn color(&self, capture: &Capture, hair: usize, numbers: &[u32], out: &mut StrandBuffer) {
+        let range = out.vertices(out.len() - 1);
+        look::along(
+            &capture.looks[hair],
+            numbers,
+            self.guides[capture.roots[hair].group as usize].segments,
+            capture.cut(hair),
+            &mut out.colors[range.clone()],
+            &mut out.opacities[range.clone()],
+            &mut out.widths[range],
+        );
     }
 }

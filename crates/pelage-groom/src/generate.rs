@@ -146,12 +146,11 @@ impl Worker {
         chunk.clock = Clock::default();
         plan.capture(hairs, &mut self.capture, &mut chunk.clock);
         chunk.dropped = self.capture.dropped();
-        let strands = &mut chunk.strands;
-        plan.evaluate(
+        chunk.dropped.without_length += plan.evaluate(
             &self.capture,
             posed,
             &mut self.scratch,
-            strands,
+            &mut chunk.strands,
             &mut chunk.clock,
         );
     }

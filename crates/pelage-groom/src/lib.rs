@@ -37,6 +37,7 @@ pub mod recipe;
 mod root_plan;
 mod shape;
 pub mod stages;
+mod stay;
 mod texture;
 mod write_roots;
 

@@ -6,7 +6,8 @@ use crate::clock::{Clock, Stage};
 use crate::curves::Curves;
 use crate::plan::Plan;
 use crate::pose::Moment;
-use crate::stages::{cut, flyaway, frizz, interpolate, kink, length, scale, thin, world};
+use crate::stages::{cut, flyaway, frizz, interpolate, kink, length, scale, world};
+use crate::stay::Stay;
 use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
 
@@ -16,34 +17,21 @@ pub(crate) struct Shapes {
     /// The hairs, in local space first, then on the pose; where hairs are multi-strands,
     /// at last their fibres. A curve that is cut ends before its last vertex.
     pub curves: Curves,
-    /// For each curve, the numbers of its vertices that stay.
-    kept: Vec<u32>,
-    /// Where each curve's begin there; one more entry than curves.
-    kept_starts: Vec<u32>,
-    /// The hairs before kink as the guides at rest have them, where guides are posed.
+    /// Which vertices of each curve stay.
+    pub stay: Stay,
+    /// The hairs as the guides at rest have them, where guides are posed.
     at_rest: Curves,
     /// Vertices as they were before a stage.
     before: Vec<Vec3>,
     noise: [Vec<Vec3>; 3],
     bundles: BundleScratch,
-    tangents: Vec<Vec3>,
 }
 
 impl Shapes {
-    /// Where the vertices that stay start, curve by curve.
-    pub(crate) fn offsets(&self) -> &[u32] {
-        &self.kept_starts
-    }
-
-    /// Numbers of the vertices that stay of curve `i`.
-    pub(crate) fn numbers(&self, i: usize) -> &[u32] {
-        &self.kept[self.kept_starts[i] as usize..self.kept_starts[i + 1] as usize]
-    }
-
     /// Appends the vertices that stay to `points`.
     pub(crate) fn write(&self, points: &mut Vec<[f32; 3]>) {
         for i in 0..self.curves.len() {
-            let (all, numbers) = (self.curves.get(i), self.numbers(i));
+            let (all, numbers) = (self.curves.get(i), self.stay.numbers(i));
             if numbers.len() == all.len() {
                 points.extend_from_slice(bytemuck::cast_slice(all));
             } else {
@@ -73,11 +61,11 @@ impl Plan {
                 ..Moment::REST
             };
             self.make(capture, &capture.frames, &rest, shapes, clock);
-            self.choose(capture, shapes, clock);
+            self.choose(capture, &shapes.curves, &mut shapes.stay, clock);
         }
         self.make(capture, frames, moment, shapes, clock);
         if !decided {
-            self.choose(capture, shapes, clock);
+            self.choose(capture, &shapes.curves, &mut shapes.stay, clock);
         }
     }
 
@@ -128,17 +116,22 @@ impl Plan {
             at_rest,
             before,
             noise,
+            stay,
             ..
         } = shapes;
         let started = clock.start();
         self.interpolate(capture, moment.guides, curves);
+        if moment.guides.is_some() {
+            self.interpolate(capture, None, at_rest);
+        }
+        let rest = moment.guides.map_or(&*curves, |_| &*at_rest);
+        self.find_degenerate(capture, rest, stay);
         let started = clock.stop(Stage::Interpolate, started);
         self.frizz(capture, moment.time, noise, before, curves);
         let started = clock.stop(Stage::Frizz, started);
         if let Some(fields) = &self.fields.kink {
             // Guides that move must not move hairs through the noise.
             let domain = moment.guides.map(|_| {
-                self.interpolate(capture, None, at_rest);
                 self.frizz(capture, 0.0, noise, before, at_rest);
                 &at_rest.vertices[..]
             });
@@ -185,29 +178,6 @@ impl Plan {
             interpolate::interpolate(guides, &capture.shares[shares], hair);
             scale::scale(capture.scale[i], hair);
         }
-    }
-
-    fn choose(&self, capture: &Capture, shapes: &mut Shapes, clock: &mut Clock) {
-        let started = clock.start();
-        let fibers = self.fibers();
-        shapes.kept.clear();
-        shapes.kept_starts.clear();
-        shapes.kept_starts.push(0);
-        for i in 0..shapes.curves.len() {
-            let curve = shapes.curves.get(i);
-            let uncut = cut::kept(curve.len(), capture.cut(i / fibers));
-            match self.thinning {
-                None => shapes.kept.extend(0..uncut as u32),
-                Some(threshold) => thin::thin(
-                    threshold,
-                    &curve[..uncut],
-                    &mut shapes.tangents,
-                    &mut shapes.kept,
-                ),
-            }
-            shapes.kept_starts.push(shapes.kept.len() as u32);
-        }
-        clock.stop(Stage::Thin, started);
     }
 }
 

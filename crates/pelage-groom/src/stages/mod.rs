@@ -5,6 +5,7 @@
 
 pub mod clump;
 pub mod cut;
+pub mod degenerate;
 pub mod facing;
 pub mod flyaway;
 pub mod frames;

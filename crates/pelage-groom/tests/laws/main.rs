@@ -503,6 +503,32 @@ fn hairs_that_grow_side_by_side_look_alike_also_where_their_guides_change() {
 }
 
 #[test]
+fn hairs_too_short_for_their_coordinates_are_left_out_and_counted() {
+    for (amount, left) in [("1e-9", 0), ("1.0", 5000)] {
+        let more = format!("[scale]\namount = {amount}");
+        let fixture = Fixture {
+            flat: true,
+            more: &more,
+            ..Fixture::default()
+        };
+        let mut sink = Collect::default();
+        let mut still = |_| Ok(Pose::default());
+        let request = request(0..5000, 2);
+        let report = generate(
+            &fixture.plan(),
+            &request,
+            &mut still,
+            &mut sink,
+            &mut |_| true,
+        );
+        let report = report.unwrap();
+        assert_eq!(report.strands, left);
+        assert_eq!(report.dropped.without_length, 5000 - left);
+        assert!(validate(&sink.strands).is_empty());
+    }
+}
+
+#[test]
 fn a_failing_sink_ends_the_run_with_its_words() {
     struct Full(u64);
     impl Sink for Full {
