@@ -30,13 +30,13 @@ pub(crate) struct Shapes {
 impl Shapes {
     /// Appends the vertices that stay to `points`.
     pub(crate) fn write(&self, points: &mut Vec<[f32; 3]>) {
+        let vertices = &self.curves.vertices;
+        if self.stay.len() == vertices.len() {
+            return points.extend_from_slice(bytemuck::cast_slice(vertices));
+        }
         for i in 0..self.curves.len() {
             let (all, numbers) = (self.curves.get(i), self.stay.numbers(i));
-            if numbers.len() == all.len() {
-                points.extend_from_slice(bytemuck::cast_slice(all));
-            } else {
-                points.extend(numbers.iter().map(|&n| all[n as usize].to_array()));
-            }
+            points.extend(numbers.iter().map(|&n| all[n as usize].to_array()));
         }
     }
 }

@@ -26,6 +26,11 @@ pub(crate) struct Stay {
 }
 
 impl Stay {
+    /// Number of vertices that stay.
+    pub(crate) fn len(&self) -> usize {
+        self.kept.len()
+    }
+
     /// Where the vertices that stay start, curve by curve.
     pub(crate) fn offsets(&self) -> &[u32] {
         &self.starts
