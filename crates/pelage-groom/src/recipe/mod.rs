@@ -91,6 +91,7 @@ mod section;
 mod segments;
 mod stages;
 mod strand;
+mod strips;
 mod suggest;
 mod surface;
 mod syntax;
@@ -127,6 +128,7 @@ pub use schema::{schema, schema_text};
 pub use segments::Segments;
 pub use stages::Unbuilt;
 pub use strand::{Splay, Strand};
+pub use strips::{STRIPS, Strip, Subject, WITHOUT_STRIP};
 pub use surface::{Surface, Up};
 
 use entry::Rule;

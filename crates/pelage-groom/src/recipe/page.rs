@@ -2,6 +2,7 @@
 
 use super::outline::{KeyOutline, outline};
 use super::stages;
+use super::strips::{STRIPS, Strip};
 use std::fmt::Write;
 
 /// What stands before the tables.
@@ -23,8 +24,27 @@ pub fn properties_text() -> String {
         text += "\n| key | what it does | values | default | takes | document 004 | there |\n\
             |---|---|---|---|---|---|---|\n";
         section.keys.iter().for_each(|key| text += &row(key));
+        let of_section = |strip: &&Strip| section.keys.iter().any(|key| key.key == strip.key);
+        STRIPS
+            .iter()
+            .filter(of_section)
+            .for_each(|strip| text += &picture(strip));
     }
     text
+}
+
+/// The strip of a property, which `pelage gallery` draws.
+fn picture(strip: &Strip) -> String {
+    let values: Vec<String> = strip
+        .values
+        .iter()
+        .map(|value| format!("`{value}`"))
+        .collect();
+    let (key, file) = (strip.key, strip.file());
+    format!(
+        "\n`{key}`: {}\n\n![{key}](gallery/{file})\n",
+        values.join(", ")
+    )
 }
 
 fn row(key: &KeyOutline) -> String {

@@ -49,6 +49,8 @@ pub enum Command {
     Inspect(InspectArgs),
     /// Measure the figures of docs/results again, on this machine.
     Bench(BenchArgs),
+    /// Draw each property in a strip of pictures, from low to high.
+    Gallery(GalleryArgs),
     /// Make a recipe from the parameters of another hair generator.
     Import(ImportArgs),
     /// Print the JSON Schema of groom.toml, for editors, or a page of all properties.
@@ -86,6 +88,25 @@ pub struct DemoArgs {
     /// Size of the picture.
     #[arg(long, default_value = "1280x720", value_parser = size, value_name = "WxH")]
     pub size: (u32, u32),
+}
+
+/// `pelage gallery`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  pelage gallery -o docs/gallery\n  \
+    pelage gallery -o look --only frizz.tip --only kink.tip --size 480x480")]
+pub struct GalleryArgs {
+    /// Folder for the strips, one JPEG file a property; it is made where it is missing.
+    #[arg(long, short, value_hint = ValueHint::DirPath)]
+    pub output: PathBuf,
+    /// A property to draw, such as width.tip; may be given several times. Left out, all.
+    #[arg(long, value_name = "KEY")]
+    pub only: Vec<String>,
+    /// Size of a picture; a strip has up to four.
+    #[arg(long, default_value = "240x240", value_parser = size, value_name = "WxH")]
+    pub size: (u32, u32),
+    /// Threads to use; 0 is one a core.
+    #[arg(long, default_value_t = 0)]
+    pub threads: usize,
 }
 
 /// `pelage init`.

@@ -13,9 +13,14 @@ pub fn json(value: &impl Serialize) -> Result<String> {
 
 /// Writes `text` to the file `path`.
 pub fn write(path: &Path, text: &str) -> Result<()> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// Writes `bytes` to the file `path`.
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     let write = || {
         let mut file = AtomicFile::create(path)?;
-        file.write_all(text.as_bytes())?;
+        file.write_all(bytes)?;
         file.commit()
     };
     write().with_context(|| format!("cannot write {}", path.display()))

@@ -7,6 +7,7 @@ mod args;
 mod bench;
 mod demo;
 mod files;
+mod gallery;
 mod generate;
 mod import;
 mod init;
@@ -38,6 +39,7 @@ pub fn run() -> ExitCode {
         Command::Render(args) => picture::run(&args, &say),
         Command::Inspect(args) => inspect::run(&args, &say),
         Command::Bench(args) => bench::run(&args, &say),
+        Command::Gallery(args) => gallery::run(&args, &say),
         Command::Schema { markdown } => pages::schema(markdown),
         Command::Import(args) => import::run(&args, &say),
         Command::Completions { shell } => pages::completions(shell),
