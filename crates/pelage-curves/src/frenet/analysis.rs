@@ -9,7 +9,8 @@
 //! Signs: a basis whose binormal would point away from the one before it is turned round,
 //! so curvature changes sign at an inflection instead of the basis. Where the curve is
 //! straight its normal stays what it was, carried to the new tangent; before the first
-//! bend it is the first normal there is. So a step must not turn the binormal by more than
+//! bend it is the first normal there is. Which of the two bases the curve starts with is
+//! chosen such that it bends to its normal on the whole. A step must not turn the binormal by more than
 //! a quarter, which would be taken for an inflection.
 
 use super::frame::{perpendicular, unit};
@@ -93,12 +94,27 @@ impl Apparatus {
         let frames = frames(samples);
         let pairs = samples.windows(2).zip(frames.windows(2));
         let segments = pairs.map(|(s, f)| between(s[1].s - s[0].s, &f[0], &f[1]));
-        Ok(Self {
+        let mut apparatus = Self {
             start,
             frame: frames[0],
             segments: segments.collect(),
-        })
+        };
+        let segments = apparatus.segments.iter();
+        if bends_back(segments.map(|segment| segment.curvature * segment.length)) {
+            apparatus.frame = apparatus.frame.turned_round();
+            apparatus
+                .segments
+                .iter_mut()
+                .for_each(|segment| segment.curvature = -segment.curvature);
+        }
+        Ok(apparatus)
     }
+}
+
+/// Whether angles of bends are negative on the whole, by more than rounding.
+pub(super) fn bends_back(bends: impl Iterator<Item = f64>) -> bool {
+    let [sum, size] = bends.fold([0.0, 0.0], |[sum, size], b| [sum + b, size + b.abs()]);
+    sum < -1e-9 * size
 }
 
 /// The basis at every sample.

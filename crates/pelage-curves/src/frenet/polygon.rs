@@ -8,8 +8,9 @@
 //!
 //! Signs as for smooth curves: a plane that would turn by more than a quarter is turned
 //! round and the bend is negative, so an S has bends of both signs and no twist. Where
-//! the polygon is straight its plane stays. f64, radians, the unit of the vertices.
+//! the polygon is straight its plane stays. On the whole it bends to its normal. f64, radians, the unit of the vertices.
 
+use super::analysis::bends_back;
 use super::frame::unit;
 use super::{Frame, FrenetError};
 use glam::DVec3;
@@ -83,9 +84,13 @@ impl Polygon {
             let corner = corner(before, after, carried, plane);
             (turns[i + 1].twist, turns[i + 1].bend, carried) = corner;
         }
+        let back = bends_back(turns.iter().map(|turn| turn.bend));
+        if back {
+            turns.iter_mut().for_each(|turn| turn.bend = -turn.bend);
+        }
         Ok(Self {
             start,
-            frame,
+            frame: if back { frame.turned_round() } else { frame },
             turns,
         })
     }
