@@ -2,8 +2,10 @@
 
 use crate::guide::Guide;
 use crate::locator::{Locator, Near};
+use crate::stages::frenet::{self, Corner};
 use pelage_curves::Vec3;
 use pelage_surface::{Mesh, RootFrame};
+use rayon::prelude::*;
 
 /// The guides of one group as arrays.
 #[derive(Clone, Debug)]
@@ -18,6 +20,9 @@ pub(crate) struct GuideSet {
     pub directions: Vec<Vec3>,
     /// Length of each guide.
     pub lengths: Vec<f32>,
+    /// `segments` corners a guide, one guide after the other; `None` where hairs are mixed
+    /// by their vertices.
+    pub corners: Option<Vec<Corner>>,
     /// Finds the guides nearest to a root.
     pub locator: Locator,
 }
@@ -38,12 +43,21 @@ impl GuideSet {
             frames: resampled.iter().map(|g| g.frame).collect(),
             directions: guides.iter().map(|g| g.direction()).collect(),
             lengths: resampled.iter().map(Guide::length).collect(),
+            corners: None,
             locator: Locator::new(
                 mesh,
                 resampled.iter().map(|g| g.frame.position).collect(),
                 nearest,
             ),
         }
+    }
+
+    /// Takes the guides apart, so that hairs are mixed by curvature and torsion.
+    pub(crate) fn in_frenet_space(mut self) -> Self {
+        let guides = self.vertices.par_chunks(self.segments as usize + 1);
+        let corners: Vec<Vec<Corner>> = guides.map(frenet::corners).collect();
+        self.corners = Some(corners.concat());
+        self
     }
 
     /// Number of guides.

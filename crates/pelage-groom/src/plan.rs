@@ -9,7 +9,7 @@ use crate::maps::{ColorField, FieldMaker, ScalarField};
 use crate::neighbors::Sharing;
 use crate::noise_fields::NoiseFields;
 use crate::random::Channel;
-use crate::recipe::{self, GuideSource, Recipe};
+use crate::recipe::{self, GuideSource, InterpolationSpace, Recipe};
 use crate::stages::frizz::FrizzFields;
 use crate::stages::tint::Tint;
 use crate::{PlanError, RootPlan, grow, root_plan};
@@ -81,12 +81,12 @@ impl Plan {
             guide_count: all.len(),
             notes,
         };
-        plan.share_out(&all)?;
+        plan.share_out(&all, recipe.interpolation.space)?;
         Ok(plan)
     }
 
     /// Gives each group its guides; a group whose hairs would have none is an error.
-    fn share_out(&mut self, all: &[Guide]) -> Result<(), PlanError> {
+    fn share_out(&mut self, all: &[Guide], space: InterpolationSpace) -> Result<(), PlanError> {
         let (groups, rest) = (&self.roots.groups, &self.roots.rest);
         let Some(sampler) = self.roots.sampler() else {
             return Ok(());
@@ -103,8 +103,11 @@ impl Plan {
                 .filter(|(_, g)| **g as usize == index)
                 .map(|(guide, _)| guide)
                 .collect();
-            self.guides
-                .push(GuideSet::new(rest, &mine, group.segments, nearest));
+            let guides = GuideSet::new(rest, &mine, group.segments, nearest);
+            self.guides.push(match space {
+                InterpolationSpace::Vertices => guides,
+                InterpolationSpace::Frenet => guides.in_frenet_space(),
+            });
         }
         let lonely = sampler
             .piece_centres()

@@ -3,7 +3,7 @@
 use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::plan::Plan;
-use crate::stages::{cut, frizz, interpolate, kink, scale, thin};
+use crate::stages::{cut, frenet, frizz, interpolate, kink, scale, thin};
 use pelage_curves::Vec3;
 use std::ops::Range;
 
@@ -20,6 +20,7 @@ pub(crate) struct Shapes {
     kept_starts: Vec<u32>,
     noise: [Vec<Vec3>; 3],
     tangents: Vec<Vec3>,
+    frenet: frenet::Scratch,
 }
 
 impl Shapes {
@@ -95,7 +96,10 @@ impl Plan {
 
     fn interpolate(&self, capture: &Capture, shapes: &mut Shapes) {
         let Shapes {
-            vertices, starts, ..
+            vertices,
+            starts,
+            frenet: scratch,
+            ..
         } = shapes;
         starts.clear();
         starts.push(0);
@@ -108,8 +112,13 @@ impl Plan {
         for (i, root) in capture.roots.iter().enumerate() {
             let range = capture.share_starts[i] as usize..capture.share_starts[i + 1] as usize;
             let hair = &mut vertices[starts[i] as usize..starts[i + 1] as usize];
-            let guides = &self.guides[root.group as usize].vertices;
-            interpolate::interpolate(guides, &capture.shares[range], hair);
+            let (guides, shares) = (&self.guides[root.group as usize], &capture.shares[range]);
+            match &guides.corners {
+                None => interpolate::interpolate(&guides.vertices, shares, hair),
+                Some(corners) => {
+                    frenet::interpolate(&guides.vertices, corners, shares, scratch, hair)
+                }
+            }
             scale::scale(capture.scale[i], hair);
         }
     }

@@ -111,10 +111,11 @@ impl Apparatus {
     }
 }
 
-/// Whether angles of bends are negative on the whole, by more than rounding.
+/// Whether angles of bends are clearly negative on the whole. An S, of which that cannot be
+/// said, begins with a positive bend.
 pub(super) fn bends_back(bends: impl Iterator<Item = f64>) -> bool {
     let [sum, size] = bends.fold([0.0, 0.0], |[sum, size], b| [sum + b, size + b.abs()]);
-    sum < -1e-9 * size
+    sum < -0.05 * size
 }
 
 /// The basis at every sample.

@@ -6,6 +6,7 @@
 pub mod cut;
 pub mod facing;
 pub mod frames;
+pub mod frenet;
 pub mod frizz;
 pub mod interpolate;
 pub mod kink;

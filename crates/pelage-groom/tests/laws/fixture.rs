@@ -41,15 +41,20 @@ const SHARED: &str = "interpolation = { method = 'natural-neighbor', facing = tr
     color.mutant = { percent = 20.0 }
     color.variation = { hue = 20.0, saturation = 0.1, value = 0.1 }";
 
+/// Hairs mixed by curvature and torsion, and all that comes after.
+const FRENET: &str = "interpolation.space = 'frenet'
+    frizz = { tip = 0.1, frequency = [2, 3, 2] }
+    cut.length = { map = 'length.png' }
+    output.skip_threshold = 0.98";
+
 /// Every kind of roots, and of hairs.
 pub fn kinds() -> impl Iterator<Item = Fixture<'static>> {
     let patterns = ["roots.pattern = 'random'", "roots.pattern = 'blue-noise'"];
-    ["", DISPLACED, NOISY, patterns[0], patterns[1], SHARED]
-        .into_iter()
-        .map(|more| Fixture {
-            more,
-            ..Fixture::default()
-        })
+    let roots = ["", DISPLACED, NOISY, patterns[0], patterns[1]];
+    (roots.into_iter().chain([SHARED, FRENET])).map(|more| Fixture {
+        more,
+        ..Fixture::default()
+    })
 }
 
 impl Default for Fixture<'_> {
