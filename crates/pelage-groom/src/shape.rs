@@ -112,15 +112,36 @@ impl Plan {
         for (i, root) in capture.roots.iter().enumerate() {
             let range = capture.share_starts[i] as usize..capture.share_starts[i + 1] as usize;
             let hair = &mut vertices[starts[i] as usize..starts[i + 1] as usize];
-            let (guides, shares) = (&self.guides[root.group as usize], &capture.shares[range]);
-            match &guides.corners {
-                None => interpolate::interpolate(&guides.vertices, shares, hair),
-                Some(corners) => {
-                    frenet::interpolate(&guides.vertices, corners, shares, scratch, hair)
-                }
-            }
-            scale::scale(capture.scale[i], hair);
+            let guides = &self.guides[root.group as usize].vertices;
+            interpolate::interpolate(guides, &capture.shares[range], hair);
         }
+        self.wind(capture, starts, scratch, vertices);
+        for (i, &factor) in capture.scale.iter().enumerate() {
+            let hair = starts[i] as usize..starts[i + 1] as usize;
+            scale::scale(factor, &mut vertices[hair]);
+        }
+    }
+
+    /// Gives hairs mixed in Frenet space the curls that a mean of vertices loses.
+    fn wind(
+        &self,
+        capture: &Capture,
+        starts: &[u32],
+        scratch: &mut frenet::Scratch,
+        vertices: &mut [Vec3],
+    ) {
+        if self.guides.iter().all(|guides| guides.corners.is_none()) {
+            return;
+        }
+        let parts = |i: usize| {
+            let guides = &self.guides[capture.roots[i].group as usize];
+            let shares = capture.share_starts[i] as usize..capture.share_starts[i + 1] as usize;
+            guides.corners.as_deref().map(|corners| frenet::Parts {
+                corners,
+                shares: &capture.shares[shares],
+            })
+        };
+        frenet::wind(parts, starts, scratch, vertices);
     }
 
     fn choose(&self, capture: &Capture, shapes: &mut Shapes, clock: &mut Clock) {

@@ -18,12 +18,16 @@
 //! end on end, and rolled about that line as the tangents agree best. (The document's mean
 //! of the first bases tilts a coat of curls: DESIGN.md, "Why are curls fitted?".)
 //!
+//! Along one hair each edge waits for the one before, so [`LANES`] hairs are walked side by
+//! side; what is done is done lane by lane, and a hair has the same bits whatever its
+//! neighbours.
+//!
 //! Limits: hairs all around three guides whose phases go round once cannot all be curls
 //! and change smoothly. Where guides say nothing of the roll, or of the line, the hair goes
 //! over into the mean of the vertices, stretched to its length.
 
-use super::interpolate;
 use super::weights::Share;
+use fearless_simd::{Level, dispatch};
 use pelage_curves::frenet::polygon::Polygon;
 use pelage_curves::{Vec3, any_perpendicular};
 
@@ -64,21 +68,6 @@ pub struct Corner {
     twist: f32,
 }
 
-/// Memory for a hair. Reused between hairs.
-#[derive(Clone, Debug, Default)]
-pub struct Scratch {
-    corners: Vec<Corner>,
-    edges: Vec<Edge>,
-}
-
-/// An edge of a hair that starts along +X.
-#[derive(Clone, Copy, Debug, Default)]
-struct Edge {
-    vector: Vec3,
-    /// How much it says of the hair's roll.
-    say: f32,
-}
-
 /// The corners of a guide through `vertices`, one fewer than these.
 pub fn corners(vertices: &[Vec3]) -> Vec<Corner> {
     let exact: Vec<_> = vertices.iter().map(|v| v.as_dvec3()).collect();
@@ -101,36 +90,260 @@ pub fn corners(vertices: &[Vec3]) -> Vec<Corner> {
     corners
 }
 
-/// Writes the vertices of a hair. `guides` holds the vertices of all guides of the group,
-/// `hair.len()` each, one guide after the other, and `profiles` their [`corners`].
-pub fn interpolate(
-    guides: &[Vec3],
-    profiles: &[Corner],
-    shares: &[Share],
-    scratch: &mut Scratch,
-    hair: &mut [Vec3],
-) {
-    interpolate::interpolate(guides, shares, hair);
-    // One guide alone is its own mean.
-    if shares.len() < 2 || hair.len() < 2 {
-        return;
+/// Hairs side by side: two of the widest common vectors.
+const LANES: usize = 16;
+
+/// One number of each of the hairs that are side by side.
+type Row = [f32; LANES];
+
+/// One vector of each.
+#[derive(Clone, Copy, Debug, Default)]
+struct Rows([Row; 3]);
+
+impl Rows {
+    #[inline(always)]
+    fn get(&self, lane: usize) -> Vec3 {
+        Vec3::new(self.0[0][lane], self.0[1][lane], self.0[2][lane])
     }
-    let Scratch { corners, edges } = scratch;
-    corners.clear();
-    corners.resize(hair.len() - 1, Corner::default());
-    edges.resize(hair.len() - 1, Edge::default());
-    mix(profiles, shares, corners);
-    unroll(corners, edges);
-    let fit = Fit::new(corners, edges, hair);
-    fit.place(corners, edges, hair);
+
+    #[inline(always)]
+    fn set(&mut self, lane: usize, vector: Vec3) {
+        for (row, x) in self.0.iter_mut().zip(vector.to_array()) {
+            row[lane] = x;
+        }
+    }
+}
+
+/// The mixed corners of hairs side by side.
+#[derive(Clone, Copy, Debug, Default)]
+struct Corners {
+    length: Row,
+    bend: Row,
+    say: Row,
+    twist: Row,
+}
+
+/// An edge of each of the hairs, which start along +X.
+#[derive(Clone, Copy, Debug, Default)]
+struct Edges {
+    vector: Rows,
+    /// How much it says of the hair's roll.
+    say: Row,
+}
+
+/// Memory for [`LANES`] hairs. Reused between chunks.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    mixed: Vec<Corner>,
+    corners: Vec<Corners>,
+    edges: Vec<Edges>,
+    /// The mean of the vertices, and in the end the hair's.
+    vertices: Vec<Rows>,
+}
+
+/// What a hair is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Parts<'a> {
+    /// The [`corners`] of all guides of its group, one guide after the other, as many a
+    /// guide as the hair has segments.
+    pub corners: &'a [Corner],
+    /// How much of each guide.
+    pub shares: &'a [Share],
+}
+
+/// Turns means of vertices into hairs. Hair `i` has the vertices `starts[i]..starts[i + 1]`
+/// of `vertices`, which hold what [`interpolate`](super::interpolate) makes of its guides,
+/// and is made of `parts(i)`; `None` leaves it as it is.
+pub fn wind<'a>(
+    parts: impl Fn(usize) -> Option<Parts<'a>>,
+    starts: &[u32],
+    scratch: &mut Scratch,
+    vertices: &mut [Vec3],
+) {
+    let hairs = 0..starts.len().saturating_sub(1);
+    // One guide alone is its own mean.
+    let shared = |i: usize| parts(i).filter(|p| p.shares.len() > 1).map(|p| (i, p));
+    let mut hairs = hairs.filter_map(shared);
+    dispatch!(Level::new(), simd => {
+        let _ = simd;
+        let mut block = [0; LANES];
+        loop {
+            scratch.clear();
+            let mut lanes = 0;
+            for (i, parts) in hairs.by_ref().take(LANES) {
+                let range = starts[i] as usize..starts[i + 1] as usize;
+                scratch.load(lanes, parts, &vertices[range]);
+                block[lanes] = i;
+                lanes += 1;
+            }
+            if lanes == 0 {
+                break;
+            }
+            scratch.unroll();
+            let fit = scratch.fit();
+            scratch.place(&fit);
+            for (lane, &i) in block[..lanes].iter().enumerate() {
+                let range = starts[i] as usize..starts[i + 1] as usize;
+                for (vertex, row) in vertices[range].iter_mut().zip(&scratch.vertices) {
+                    *vertex = row.get(lane);
+                }
+            }
+        }
+    });
+}
+
+impl Scratch {
+    fn clear(&mut self) {
+        self.corners.clear();
+        self.edges.clear();
+        self.vertices.clear();
+    }
+
+    /// Puts a hair into a lane. Shorter ones than the longest go on with edges without
+    /// length.
+    #[inline(always)]
+    fn load(&mut self, lane: usize, parts: Parts, mean: &[Vec3]) {
+        let segments = mean.len() - 1;
+        self.mixed.clear();
+        self.mixed.resize(segments, Corner::default());
+        mix(parts, &mut self.mixed);
+        if self.corners.len() < segments {
+            self.corners.resize(segments, Corners::default());
+            self.edges.resize(segments, Edges::default());
+            // Hairs that are there already stay where they end.
+            let last = self.vertices.last().copied().unwrap_or_default();
+            self.vertices.resize(segments + 1, last);
+        }
+        for (row, corner) in self.corners.iter_mut().zip(&self.mixed) {
+            row.length[lane] = corner.length;
+            row.bend[lane] = corner.bend;
+            row.say[lane] = corner.say;
+            row.twist[lane] = corner.twist;
+        }
+        let last = mean[segments];
+        let vertices = mean.iter().chain(std::iter::repeat(&last));
+        for (row, vertex) in self.vertices.iter_mut().zip(vertices) {
+            row.set(lane, *vertex);
+        }
+    }
+
+    /// Makes the edges that have these corners.
+    ///
+    /// How much an edge says of the roll falls with how far the hair has wound before it:
+    /// guides that wind at different rates come to disagree.
+    #[inline(always)]
+    fn unroll(&mut self) {
+        let (mut tangents, mut normals, mut binormals) =
+            (Rows::default(), Rows::default(), Rows::default());
+        for lane in 0..LANES {
+            tangents.set(lane, Vec3::X);
+            normals.set(lane, Vec3::Y);
+            binormals.set(lane, Vec3::Z);
+        }
+        let (mut before, mut wound) = ([0.0; LANES], [0.0; LANES]);
+        for (corner, edge) in self.corners.iter().zip(&mut self.edges) {
+            for lane in 0..LANES {
+                let (t, n, b) = (tangents.get(lane), normals.get(lane), binormals.get(lane));
+                let here = corner.length[lane];
+                let length = 0.5 * (before[lane] + here);
+                let (cosine, sine) = turn(corner.twist[lane], corner.say[lane]);
+                let (n, b) = (n * cosine + b * sine, b * cosine - n * sine);
+                let twist = angle(cosine, sine);
+                let (cosine, sine) = turn(corner.bend[lane], length);
+                let (t, n) = (t * cosine + n * sine, n * cosine - t * sine);
+                let bend = angle(cosine, sine);
+                // Where hardly anything bends a twist is noise.
+                let wound_here = wound[lane] + bend + twist.min(4.0 * bend);
+                let fades = 1.0 / (1.0 + 0.25 * wound_here * wound_here);
+                tangents.set(lane, t);
+                normals.set(lane, n);
+                binormals.set(lane, b);
+                (before[lane], wound[lane]) = (here, wound_here);
+                edge.vector.set(lane, t * here);
+                edge.say[lane] = fades * fades;
+            }
+        }
+    }
+
+    /// Fits the edges to the mean of the vertices.
+    #[inline(always)]
+    fn fit(&self) -> [Fit; LANES] {
+        let mut chord = Rows::default();
+        let mut length = [0.0; LANES];
+        for (corner, edge) in self.corners.iter().zip(&self.edges) {
+            for lane in 0..LANES {
+                chord.set(lane, chord.get(lane) + edge.vector.get(lane));
+                length[lane] += corner.length[lane];
+            }
+        }
+        let (first, last) = (&self.vertices[0], &self.vertices[self.corners.len()]);
+        let lines: [Lines; LANES] = std::array::from_fn(|lane| {
+            let whole = last.get(lane) - first.get(lane);
+            Lines::new(chord.get(lane), whole, length[lane])
+        });
+        let mut sums = Sums::default();
+        let (from, onto) = (across(&lines, |l| l.from), across(&lines, |l| l.onto));
+        let pairs = self.vertices.windows(2);
+        for ((corner, edge), pair) in self.corners.iter().zip(&self.edges).zip(pairs) {
+            for lane in 0..LANES {
+                let mean = pair[1].get(lane) - pair[0].get(lane);
+                let own = from.map(|axis| edge.vector.get(lane).dot(axis.get(lane)));
+                let other = onto.map(|axis| mean.dot(axis.get(lane)));
+                sums.add(lane, own, other, edge.say[lane], corner.length[lane]);
+            }
+        }
+        std::array::from_fn(|lane| Fit::new(&lines[lane], &sums, lane))
+    }
+
+    /// Writes the vertices over those of the mean, edge by edge at full length.
+    #[inline(always)]
+    fn place(&mut self, fits: &[Fit; LANES]) {
+        let [a, b, c] = [0, 1, 2].map(|k| rows(fits, |fit| fit.from.0[k]));
+        let [x, y, z] = [0, 1, 2].map(|k| rows(fits, |fit| fit.onto.0[k]));
+        let share: Row = std::array::from_fn(|lane| fits[lane].share);
+        let mut before = self.vertices[0];
+        let mut end = before;
+        let edges = self.corners.iter().zip(&self.edges);
+        for ((corner, edge), vertex) in edges.zip(&mut self.vertices[1..]) {
+            for lane in 0..LANES {
+                let here = vertex.get(lane);
+                let mean = here - before.get(lane);
+                before.set(lane, here);
+                let edge = edge.vector.get(lane);
+                let placed = x.get(lane) * edge.dot(a.get(lane))
+                    + y.get(lane) * edge.dot(b.get(lane))
+                    + z.get(lane) * edge.dot(c.get(lane));
+                let mixed = mean * (1.0 - share[lane]) + placed * share[lane];
+                let next = end.get(lane) + stretched(mixed, corner.length[lane]);
+                end.set(lane, next);
+                vertex.set(lane, next);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn rows<T>(of: &[T; LANES], vector: impl Fn(&T) -> Vec3) -> Rows {
+    let mut rows = Rows::default();
+    for (lane, one) in of.iter().enumerate() {
+        rows.set(lane, vector(one));
+    }
+    rows
+}
+
+/// The two directions across a line.
+#[inline(always)]
+fn across(lines: &[Lines; LANES], axes: impl Fn(&Lines) -> Axes) -> [Rows; 2] {
+    [1, 2].map(|k| rows(lines, |line| axes(line).0[k]))
 }
 
 /// Sums the corners of the guides.
-#[inline]
-fn mix(profiles: &[Corner], shares: &[Share], corners: &mut [Corner]) {
-    for share in shares {
+#[inline(always)]
+fn mix(parts: Parts, corners: &mut [Corner]) {
+    for share in parts.shares {
         let (first, w) = (share.guide as usize * corners.len(), share.weight);
-        for (sum, guide) in corners.iter_mut().zip(&profiles[first..]) {
+        let guide = &parts.corners[first..first + corners.len()];
+        for (sum, guide) in corners.iter_mut().zip(guide) {
             sum.length += w * guide.length;
             sum.bend += w * guide.bend;
             sum.say += w * guide.say;
@@ -139,49 +352,25 @@ fn mix(profiles: &[Corner], shares: &[Share], corners: &mut [Corner]) {
     }
 }
 
-/// Writes the edges of the hair that has these corners and starts along +X.
-///
-/// How much an edge says of the roll falls with how far the hair has wound before it:
-/// guides that wind at different rates come to disagree.
-#[inline]
-fn unroll(corners: &[Corner], edges: &mut [Edge]) {
-    let mut wound = 0.0;
-    let (mut t, mut n, mut b) = (Vec3::X, Vec3::Y, Vec3::Z);
-    let mut before = corners.first().map_or(0.0, |corner| corner.length);
-    for (corner, edge) in corners.iter().zip(edges) {
-        let length = 0.5 * (before + corner.length);
-        before = corner.length;
-        let (cosine, sine) = turn(corner.twist, corner.say);
-        (n, b) = (n * cosine + b * sine, b * cosine - n * sine);
-        let twist = angle(cosine, sine);
-        let (cosine, sine) = turn(corner.bend, length);
-        (t, n) = (t * cosine + n * sine, n * cosine - t * sine);
-        let bend = angle(cosine, sine);
-        // Where hardly anything bends a twist is noise.
-        wound += bend + twist.min(4.0 * bend);
-        let fades = 1.0 / (1.0 + 0.25 * wound * wound);
-        *edge = Edge {
-            vector: t * corner.length,
-            say: fades * fades,
-        };
-    }
-}
-
 /// Cosine and sine of an angle whose half has the tangent `part / whole`; (1, 0) for 0 / 0.
-#[inline]
+#[inline(always)]
 fn turn(part: f32, whole: f32) -> (f32, f32) {
     let (p, q) = (part * part, whole * whole);
     let square = p + q;
-    if square > 0.0 {
-        let over = 1.0 / square;
-        ((q - p) * over, 2.0 * part * whole * over)
-    } else {
-        (1.0, 0.0)
-    }
+    let over = 1.0 / square;
+    let is_angle = square > 0.0;
+    (
+        if is_angle { (q - p) * over } else { 1.0 },
+        if is_angle {
+            2.0 * part * whole * over
+        } else {
+            0.0
+        },
+    )
 }
 
 /// Grows with the size of an angle, as fast where it is small.
-#[inline]
+#[inline(always)]
 fn angle(cosine: f32, sine: f32) -> f32 {
     1.0 - cosine + sine.abs()
 }
@@ -192,19 +381,54 @@ struct Axes([Vec3; 3]);
 
 impl Axes {
     fn along(line: Vec3) -> Self {
+        let line = line.try_normalize().unwrap_or(Vec3::Z);
         let aside = any_perpendicular(line);
         Self([line, aside, line.cross(aside)])
     }
+}
 
-    /// Coordinates of `v` across the line.
-    #[inline]
-    fn across(&self, v: Vec3) -> [f32; 2] {
-        [v.dot(self.0[1]), v.dot(self.0[2])]
+/// Where a hair lies before it is rolled: its own line from root to tip, and that of the
+/// mean.
+struct Lines {
+    from: Axes,
+    onto: Axes,
+    /// How much they are lines (0..=1).
+    share: f32,
+}
+
+impl Lines {
+    fn new(chord: Vec3, whole: Vec3, length: f32) -> Self {
+        let short = SHORT * length;
+        Self {
+            from: Axes::along(chord),
+            onto: Axes::along(whole),
+            share: smooth(chord.length(), short) * smooth(whole.length(), short),
+        }
     }
 }
 
-/// How the hair lies: axes of its own, those they come to lie on, and how much of it is
-/// taken instead of the mean (0..=1).
+/// Over each hair, of what lies across the lines: ∫ a·b, ∫ a×b, ∫ a·a, and ∫ 1.
+#[derive(Default)]
+struct Sums {
+    dot: Row,
+    cross: Row,
+    size: Row,
+    said: Row,
+}
+
+impl Sums {
+    #[inline(always)]
+    fn add(&mut self, lane: usize, [x, y]: [f32; 2], [u, v]: [f32; 2], say: f32, length: f32) {
+        let over = if length > 0.0 { say / length } else { 0.0 };
+        self.dot[lane] += (x * u + y * v) * over;
+        self.cross[lane] += (x * v - y * u) * over;
+        self.size[lane] += (x * x + y * y) * over;
+        self.said[lane] += say * length;
+    }
+}
+
+/// How a hair lies: axes of its own, those they come to lie on, and how much of it is taken
+/// instead of the mean (0..=1).
 struct Fit {
     from: Axes,
     onto: Axes,
@@ -212,69 +436,33 @@ struct Fit {
 }
 
 impl Fit {
-    /// Fits `edges` to the mean of the vertices, `mean`.
-    fn new(corners: &[Corner], edges: &[Edge], mean: &[Vec3]) -> Self {
-        let length: f32 = corners.iter().map(|corner| corner.length).sum();
-        let chord: Vec3 = edges.iter().map(|edge| edge.vector).sum();
-        let whole = mean[mean.len() - 1] - mean[0];
-        let line = |v: Vec3| v.try_normalize().unwrap_or(Vec3::Z);
-        let (from, mut onto) = (Axes::along(line(chord)), Axes::along(line(whole)));
-        // Over the hair: ∫ a·b, ∫ a×b and ∫ a·a of what lies across the lines.
-        let (mut dot, mut cross, mut size, mut said) = (0.0, 0.0, 0.0, 0.0);
-        for ((corner, edge), pair) in corners.iter().zip(edges).zip(mean.windows(2)) {
-            if corner.length > 0.0 {
-                let [x, y] = from.across(edge.vector);
-                let [u, v] = onto.across(pair[1] - pair[0]);
-                let over = edge.say / corner.length;
-                said += edge.say * corner.length;
-                dot += (x * u + y * v) * over;
-                cross += (x * v - y * u) * over;
-                size += (x * x + y * y) * over;
-            }
-        }
+    fn new(lines: &Lines, sums: &Sums, lane: usize) -> Self {
+        let (dot, cross) = (sums.dot[lane], sums.cross[lane]);
         let agreement = (dot * dot + cross * cross).sqrt();
+        let mut onto = lines.onto;
         if agreement > 0.0 {
             let (cosine, sine) = (dot / agreement, cross / agreement);
             let [_, u, v] = onto.0;
             onto.0[1] = u * cosine + v * sine;
             onto.0[2] = v * cosine - u * sine;
         }
-        let full = AGREEMENT * size + SLENDER * said;
-        let short = SHORT * length;
-        let share =
-            smooth(agreement, full) * smooth(chord.length(), short) * smooth(whole.length(), short);
-        Self { from, onto, share }
-    }
-
-    /// Writes the vertices over those of the mean, edge by edge at full length.
-    fn place(&self, corners: &[Corner], edges: &[Edge], hair: &mut [Vec3]) {
-        let [a, b, c] = self.from.0;
-        let [x, y, z] = self.onto.0;
-        let (own, rest) = (self.share, 1.0 - self.share);
-        let mut before = hair[0];
-        let mut end = hair[0];
-        for ((corner, edge), vertex) in corners.iter().zip(edges).zip(&mut hair[1..]) {
-            let mean = *vertex - before;
-            before = *vertex;
-            let edge = edge.vector;
-            let placed = x * edge.dot(a) + y * edge.dot(b) + z * edge.dot(c);
-            end += stretched(mean * rest + placed * own, corner.length);
-            *vertex = end;
+        let full = AGREEMENT * sums.size[lane] + SLENDER * sums.said[lane];
+        Self {
+            from: lines.from,
+            onto,
+            share: lines.share * smooth(agreement, full),
         }
     }
 }
 
 /// `edge` at `length`, which it has already or falls short of; less where it is almost 0,
 /// so that the result does not jump there.
-#[inline]
+#[inline(always)]
 fn stretched(edge: Vec3, length: f32) -> Vec3 {
     let soft = COMMON * COMMON * length * length;
     let square = edge.length_squared() + soft;
-    if square > 0.0 {
-        edge * ((length * length + soft) / square).sqrt()
-    } else {
-        edge
-    }
+    let factor = ((length * length + soft) / square).sqrt();
+    edge * if square > 0.0 { factor } else { 1.0 }
 }
 
 /// 0 at 0, 1 from `full` on, and smooth between; 0 where both are 0.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::stages::interpolate::interpolate;
 use proptest::prelude::*;
 use std::f32::consts::TAU;
 
@@ -46,15 +47,13 @@ fn both(guides: &[Vec<Vec3>], weights: &[f32]) -> [Vec<Vec3>; 2] {
     });
     let shares = shares.collect::<Vec<Share>>();
     let mut mean = vec![Vec3::ZERO; guides[0].len()];
-    interpolate::interpolate(&vertices, &shares, &mut mean);
-    let mut hair = vec![Vec3::ONE; mean.len()];
-    interpolate(
-        &vertices,
-        &profiles,
-        &shares,
-        &mut Scratch::default(),
-        &mut hair,
-    );
+    interpolate(&vertices, &shares, &mut mean);
+    let (mut hair, starts) = (mean.clone(), [0, mean.len() as u32]);
+    let parts = Parts {
+        corners: &profiles,
+        shares: &shares,
+    };
+    wind(|_| Some(parts), &starts, &mut Scratch::default(), &mut hair);
     [mean, hair]
 }
 
