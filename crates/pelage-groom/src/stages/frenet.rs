@@ -242,6 +242,8 @@ impl Scratch {
         }
         let (mut before, mut wound) = ([0.0; LANES], [0.0; LANES]);
         for (corner, edge) in self.corners.iter().zip(&mut self.edges) {
+            // Copies, so that the compiler sees that nothing overlaps.
+            let (corner, mut made) = (*corner, Edges::default());
             for lane in 0..LANES {
                 let (t, n, b) = (tangents.get(lane), normals.get(lane), binormals.get(lane));
                 let here = corner.length[lane];
@@ -258,10 +260,12 @@ impl Scratch {
                 tangents.set(lane, t);
                 normals.set(lane, n);
                 binormals.set(lane, b);
-                (before[lane], wound[lane]) = (here, wound_here);
-                edge.vector.set(lane, t * here);
-                edge.say[lane] = fades * fades;
+                before[lane] = here;
+                wound[lane] = wound_here;
+                made.vector.set(lane, t * here);
+                made.say[lane] = fades * fades;
             }
+            *edge = made;
         }
     }
 
@@ -285,6 +289,7 @@ impl Scratch {
         let (from, onto) = (across(&lines, |l| l.from), across(&lines, |l| l.onto));
         let pairs = self.vertices.windows(2);
         for ((corner, edge), pair) in self.corners.iter().zip(&self.edges).zip(pairs) {
+            let (corner, edge, pair) = (*corner, *edge, [pair[0], pair[1]]);
             for lane in 0..LANES {
                 let mean = pair[1].get(lane) - pair[0].get(lane);
                 let own = from.map(|axis| edge.vector.get(lane).dot(axis.get(lane)));
@@ -305,8 +310,9 @@ impl Scratch {
         let mut end = before;
         let edges = self.corners.iter().zip(&self.edges);
         for ((corner, edge), vertex) in edges.zip(&mut self.vertices[1..]) {
+            let (corner, edge, mut made) = (*corner, *edge, *vertex);
             for lane in 0..LANES {
-                let here = vertex.get(lane);
+                let here = made.get(lane);
                 let mean = here - before.get(lane);
                 before.set(lane, here);
                 let edge = edge.vector.get(lane);
@@ -316,8 +322,9 @@ impl Scratch {
                 let mixed = mean * (1.0 - share[lane]) + placed * share[lane];
                 let next = end.get(lane) + stretched(mixed, corner.length[lane]);
                 end.set(lane, next);
-                vertex.set(lane, next);
+                made.set(lane, next);
             }
+            *vertex = made;
         }
     }
 }
