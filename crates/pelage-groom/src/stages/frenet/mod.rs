@@ -18,7 +18,7 @@
 //! end on end, and rolled about that line as the tangents agree best. (The document's mean
 //! of the first bases tilts a coat of curls: DESIGN.md, "Why are curls fitted?".)
 //!
-//! Along one hair each edge waits for the one before, so [`LANES`] hairs are walked side by
+//! Along one hair each edge waits for the one before, so sixteen hairs are walked side by
 //! side; what is done is done lane by lane, and a hair has the same bits whatever its
 //! neighbours.
 //!
@@ -26,10 +26,15 @@
 //! and change smoothly. Where guides say nothing of the roll, or of the line, the hair goes
 //! over into the mean of the vertices, stretched to its length.
 
+mod fit;
+mod lanes;
+
 use super::weights::Share;
 use fearless_simd::{Level, dispatch};
+use fit::{Fit, Lines, Sums, across};
+use lanes::{LANES, Row, Rows};
+use pelage_curves::Vec3;
 use pelage_curves::frenet::polygon::Polygon;
-use pelage_curves::{Vec3, any_perpendicular};
 
 /// Bends below this angle are noise of f32 vertices, and have no plane.
 const STRAIGHT: f64 = 1e-4;
@@ -40,17 +45,6 @@ const SHARPEST: f64 = 1e3;
 /// Weight of torsion where nothing bends, beside 1 for a bend of a right angle: so small
 /// that a curl's winding wins, and not 0, so that there is always a mean.
 const LEAST_SAY: f64 = 1e-3;
-
-/// Below this part of full agreement about the roll a hair goes over to the mean: less
-/// keeps more of the curls, more lets neighbours there differ less.
-const AGREEMENT: f32 = 0.2;
-
-/// Mean square of the sine between a hair and its line below which it counts as straight:
-/// some two degrees.
-const SLENDER: f32 = 1e-3;
-
-/// Distance from root to tip, as a part of the length, below which it is no line to lie on.
-const SHORT: f32 = 0.1;
 
 /// Where the mean of directions is shorter than this they have hardly a common one.
 const COMMON: f32 = 0.1;
@@ -90,30 +84,6 @@ pub fn corners(vertices: &[Vec3]) -> Vec<Corner> {
     corners
 }
 
-/// Hairs side by side: two of the widest common vectors.
-const LANES: usize = 16;
-
-/// One number of each of the hairs that are side by side.
-type Row = [f32; LANES];
-
-/// One vector of each.
-#[derive(Clone, Copy, Debug, Default)]
-struct Rows([Row; 3]);
-
-impl Rows {
-    #[inline(always)]
-    fn get(&self, lane: usize) -> Vec3 {
-        Vec3::new(self.0[0][lane], self.0[1][lane], self.0[2][lane])
-    }
-
-    #[inline(always)]
-    fn set(&mut self, lane: usize, vector: Vec3) {
-        for (row, x) in self.0.iter_mut().zip(vector.to_array()) {
-            row[lane] = x;
-        }
-    }
-}
-
 /// The mixed corners of hairs side by side.
 #[derive(Clone, Copy, Debug, Default)]
 struct Corners {
@@ -131,7 +101,7 @@ struct Edges {
     say: Row,
 }
 
-/// Memory for [`LANES`] hairs. Reused between chunks.
+/// Memory for the hairs side by side. Reused between chunks.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     mixed: Vec<Corner>,
@@ -275,9 +245,9 @@ impl Scratch {
         let mut chord = Rows::default();
         let mut length = [0.0; LANES];
         for (corner, edge) in self.corners.iter().zip(&self.edges) {
-            for lane in 0..LANES {
+            for (lane, length) in length.iter_mut().enumerate() {
                 chord.set(lane, chord.get(lane) + edge.vector.get(lane));
-                length[lane] += corner.length[lane];
+                *length += corner.length[lane];
             }
         }
         let (first, last) = (&self.vertices[0], &self.vertices[self.corners.len()]);
@@ -286,15 +256,17 @@ impl Scratch {
             Lines::new(chord.get(lane), whole, length[lane])
         });
         let mut sums = Sums::default();
-        let (from, onto) = (across(&lines, |l| l.from), across(&lines, |l| l.onto));
+        let [a, b] = across(&lines, |l| l.from);
+        let [c, d] = across(&lines, |l| l.onto);
         let pairs = self.vertices.windows(2);
         for ((corner, edge), pair) in self.corners.iter().zip(&self.edges).zip(pairs) {
             let (corner, edge, pair) = (*corner, *edge, [pair[0], pair[1]]);
             for lane in 0..LANES {
                 let mean = pair[1].get(lane) - pair[0].get(lane);
-                let own = from.map(|axis| edge.vector.get(lane).dot(axis.get(lane)));
-                let other = onto.map(|axis| mean.dot(axis.get(lane)));
-                sums.add(lane, own, other, edge.say[lane], corner.length[lane]);
+                let own = edge.vector.get(lane);
+                let own = [own.dot(a.get(lane)), own.dot(b.get(lane))];
+                let mean = [mean.dot(c.get(lane)), mean.dot(d.get(lane))];
+                sums.add(lane, own, mean, edge.say[lane], corner.length[lane]);
             }
         }
         std::array::from_fn(|lane| Fit::new(&lines[lane], &sums, lane))
@@ -303,15 +275,15 @@ impl Scratch {
     /// Writes the vertices over those of the mean, edge by edge at full length.
     #[inline(always)]
     fn place(&mut self, fits: &[Fit; LANES]) {
-        let [a, b, c] = [0, 1, 2].map(|k| rows(fits, |fit| fit.from.0[k]));
-        let [x, y, z] = [0, 1, 2].map(|k| rows(fits, |fit| fit.onto.0[k]));
-        let share: Row = std::array::from_fn(|lane| fits[lane].share);
+        let [a, b, c] = [0, 1, 2].map(|k| Rows::of(fits, |fit| fit.from.0[k]));
+        let [x, y, z] = [0, 1, 2].map(|k| Rows::of(fits, |fit| fit.onto.0[k]));
+        let shares: Row = std::array::from_fn(|lane| fits[lane].share);
         let mut before = self.vertices[0];
         let mut end = before;
         let edges = self.corners.iter().zip(&self.edges);
         for ((corner, edge), vertex) in edges.zip(&mut self.vertices[1..]) {
             let (corner, edge, mut made) = (*corner, *edge, *vertex);
-            for lane in 0..LANES {
+            for (lane, share) in shares.iter().enumerate() {
                 let here = made.get(lane);
                 let mean = here - before.get(lane);
                 before.set(lane, here);
@@ -319,7 +291,7 @@ impl Scratch {
                 let placed = x.get(lane) * edge.dot(a.get(lane))
                     + y.get(lane) * edge.dot(b.get(lane))
                     + z.get(lane) * edge.dot(c.get(lane));
-                let mixed = mean * (1.0 - share[lane]) + placed * share[lane];
+                let mixed = mean * (1.0 - share) + placed * share;
                 let next = end.get(lane) + stretched(mixed, corner.length[lane]);
                 end.set(lane, next);
                 made.set(lane, next);
@@ -327,21 +299,6 @@ impl Scratch {
             *vertex = made;
         }
     }
-}
-
-#[inline(always)]
-fn rows<T>(of: &[T; LANES], vector: impl Fn(&T) -> Vec3) -> Rows {
-    let mut rows = Rows::default();
-    for (lane, one) in of.iter().enumerate() {
-        rows.set(lane, vector(one));
-    }
-    rows
-}
-
-/// The two directions across a line.
-#[inline(always)]
-fn across(lines: &[Lines; LANES], axes: impl Fn(&Lines) -> Axes) -> [Rows; 2] {
-    [1, 2].map(|k| rows(lines, |line| axes(line).0[k]))
 }
 
 /// Sums the corners of the guides.
@@ -382,105 +339,14 @@ fn angle(cosine: f32, sine: f32) -> f32 {
     1.0 - cosine + sine.abs()
 }
 
-/// A line with two directions across it; right-handed, orthonormal.
-#[derive(Clone, Copy)]
-struct Axes([Vec3; 3]);
-
-impl Axes {
-    fn along(line: Vec3) -> Self {
-        let line = line.try_normalize().unwrap_or(Vec3::Z);
-        let aside = any_perpendicular(line);
-        Self([line, aside, line.cross(aside)])
-    }
-}
-
-/// Where a hair lies before it is rolled: its own line from root to tip, and that of the
-/// mean.
-struct Lines {
-    from: Axes,
-    onto: Axes,
-    /// How much they are lines (0..=1).
-    share: f32,
-}
-
-impl Lines {
-    fn new(chord: Vec3, whole: Vec3, length: f32) -> Self {
-        let short = SHORT * length;
-        Self {
-            from: Axes::along(chord),
-            onto: Axes::along(whole),
-            share: smooth(chord.length(), short) * smooth(whole.length(), short),
-        }
-    }
-}
-
-/// Over each hair, of what lies across the lines: ∫ a·b, ∫ a×b, ∫ a·a, and ∫ 1.
-#[derive(Default)]
-struct Sums {
-    dot: Row,
-    cross: Row,
-    size: Row,
-    said: Row,
-}
-
-impl Sums {
-    #[inline(always)]
-    fn add(&mut self, lane: usize, [x, y]: [f32; 2], [u, v]: [f32; 2], say: f32, length: f32) {
-        let over = if length > 0.0 { say / length } else { 0.0 };
-        self.dot[lane] += (x * u + y * v) * over;
-        self.cross[lane] += (x * v - y * u) * over;
-        self.size[lane] += (x * x + y * y) * over;
-        self.said[lane] += say * length;
-    }
-}
-
-/// How a hair lies: axes of its own, those they come to lie on, and how much of it is taken
-/// instead of the mean (0..=1).
-struct Fit {
-    from: Axes,
-    onto: Axes,
-    share: f32,
-}
-
-impl Fit {
-    fn new(lines: &Lines, sums: &Sums, lane: usize) -> Self {
-        let (dot, cross) = (sums.dot[lane], sums.cross[lane]);
-        let agreement = (dot * dot + cross * cross).sqrt();
-        let mut onto = lines.onto;
-        if agreement > 0.0 {
-            let (cosine, sine) = (dot / agreement, cross / agreement);
-            let [_, u, v] = onto.0;
-            onto.0[1] = u * cosine + v * sine;
-            onto.0[2] = v * cosine - u * sine;
-        }
-        let full = AGREEMENT * sums.size[lane] + SLENDER * sums.said[lane];
-        Self {
-            from: lines.from,
-            onto,
-            share: lines.share * smooth(agreement, full),
-        }
-    }
-}
-
 /// `edge` at `length`, which it has already or falls short of; less where it is almost 0,
 /// so that the result does not jump there.
 #[inline(always)]
 fn stretched(edge: Vec3, length: f32) -> Vec3 {
     let soft = COMMON * COMMON * length * length;
-    let square = edge.length_squared() + soft;
-    let factor = ((length * length + soft) / square).sqrt();
-    edge * if square > 0.0 { factor } else { 1.0 }
-}
-
-/// 0 at 0, 1 from `full` on, and smooth between; 0 where both are 0.
-fn smooth(x: f32, full: f32) -> f32 {
-    if x >= full && x > 0.0 {
-        return 1.0;
-    }
-    let t = if x > 0.0 { x / full } else { 0.0 };
-    t * t * (3.0 - 2.0 * t)
+    let square = (edge.length_squared() + soft).max(f32::MIN_POSITIVE);
+    edge * ((length * length + soft) / square).sqrt()
 }
 
 #[cfg(test)]
-#[path = "frenet_tests.rs"]
 mod tests;

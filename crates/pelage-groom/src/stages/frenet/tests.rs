@@ -35,31 +35,48 @@ fn s_shape(size: f32, direction: f32) -> Vec<Vec3> {
     (0..=SEGMENTS).map(at).collect()
 }
 
-/// The hair that guides share by `weights`, by vertices and by Frenet.
-fn both(guides: &[Vec<Vec3>], weights: &[f32]) -> [Vec<Vec3>; 2] {
-    let vertices = guides.concat();
-    let profiles: Vec<Corner> = guides.iter().flat_map(|g| corners(g)).collect();
+fn shares(weights: &[f32]) -> Vec<Share> {
     let shares = (0..).zip(weights).map(|(guide, &weight)| Share {
         guide,
         weight,
         cosine: weight,
         sine: 0.0,
     });
-    let shares = shares.collect::<Vec<Share>>();
-    let mut mean = vec![Vec3::ZERO; guides[0].len()];
-    interpolate(&vertices, &shares, &mut mean);
-    let (mut hair, starts) = (mean.clone(), [0, mean.len() as u32]);
-    let parts = Parts {
-        corners: &profiles,
-        shares: &shares,
-    };
-    wind(|_| Some(parts), &starts, &mut Scratch::default(), &mut hair);
-    [mean, hair]
+    shares.collect()
 }
 
-fn frenet(guides: &[Vec<Vec3>], weights: &[f32]) -> Vec<Vec3> {
-    let [_, hair] = both(guides, weights);
-    hair
+/// The hairs that guides share by each of `weights`.
+fn frenet_each<const N: usize>(guides: &[Vec<Vec3>], weights: &[[f32; N]]) -> Vec<Vec<Vec3>> {
+    let (all, count) = (guides.concat(), guides[0].len());
+    let profiles: Vec<Corner> = guides.iter().flat_map(|g| corners(g)).collect();
+    let shares: Vec<Vec<Share>> = weights.iter().map(|w| shares(w)).collect();
+    let mut hairs = vec![Vec3::ZERO; count * weights.len()];
+    for (hair, shares) in hairs.chunks_mut(count).zip(&shares) {
+        interpolate(&all, shares, hair);
+    }
+    let starts: Vec<u32> = (0..=weights.len()).map(|i| (i * count) as u32).collect();
+    let parts = |i: usize| Parts {
+        corners: &profiles,
+        shares: &shares[i],
+    };
+    wind(
+        |i| Some(parts(i)),
+        &starts,
+        &mut Scratch::default(),
+        &mut hairs,
+    );
+    hairs.chunks(count).map(<[Vec3]>::to_vec).collect()
+}
+
+/// The hair that guides share by `weights`, by vertices and by Frenet.
+fn both<const N: usize>(guides: &[Vec<Vec3>], weights: &[f32; N]) -> [Vec<Vec3>; 2] {
+    let mut mean = vec![Vec3::ZERO; guides[0].len()];
+    interpolate(&guides.concat(), &shares(weights), &mut mean);
+    [mean, frenet(guides, weights)]
+}
+
+fn frenet<const N: usize>(guides: &[Vec<Vec3>], weights: &[f32; N]) -> Vec<Vec3> {
+    frenet_each(guides, &[*weights]).remove(0)
 }
 
 fn length(hair: &[Vec3]) -> f32 {
@@ -78,6 +95,47 @@ fn radius(hair: &[Vec3]) -> f32 {
 fn farthest(a: &[Vec3], b: &[Vec3]) -> f32 {
     let apart = a.iter().zip(b).map(|(p, q)| p.distance(*q));
     apart.fold(0.0, f32::max)
+}
+
+#[test]
+fn hairs_side_by_side_are_those_of_each_alone_also_of_different_segments() {
+    let long = [
+        helix(0.1, 4.0, 0.0),
+        helix(0.2, -2.0, 0.4),
+        s_shape(0.2, 1.0),
+    ];
+    let short = long.clone().map(|guide| guide[..6].to_vec());
+    let profiles = [&long, &short].map(|g| g.iter().flat_map(|g| corners(g)).collect::<Vec<_>>());
+    let (mut every, mut vertices, mut starts) = (Vec::new(), Vec::new(), vec![0]);
+    for i in 0..50usize {
+        let guides = if i.is_multiple_of(3) { &long } else { &short };
+        let w = i as f32 / 60.0;
+        // Every seventh follows one guide and is left as it is.
+        let mine = match i % 7 {
+            0 => shares(&[1.0]),
+            _ => shares(&[w, 0.9 - w, 0.1]),
+        };
+        let first = vertices.len();
+        vertices.resize(first + guides[0].len(), Vec3::ZERO);
+        interpolate(&guides.concat(), &mine, &mut vertices[first..]);
+        starts.push(vertices.len() as u32);
+        every.push(mine);
+    }
+    let parts = |i: usize| Parts {
+        corners: &profiles[usize::from(!i.is_multiple_of(3))],
+        shares: &every[i],
+    };
+    let mut scratch = Scratch::default();
+    let mut together = vertices.clone();
+    wind(|i| Some(parts(i)), &starts, &mut scratch, &mut together);
+    for i in 0..50 {
+        let range = starts[i] as usize..starts[i + 1] as usize;
+        let mut alone = vertices[range.clone()].to_vec();
+        let end = alone.len() as u32;
+        wind(|_| Some(parts(i)), &[0, end], &mut scratch, &mut alone);
+        assert_eq!(alone, together[range.clone()], "hair {i}");
+        assert_eq!(alone == vertices[range], i % 7 == 0);
+    }
 }
 
 #[test]
@@ -228,18 +286,16 @@ fn hairs_change_without_a_jump_where_weights_do() {
             // From one guide to another, past a third that does not say much.
             let third = (i + j) % guides.len();
             let some = [&guides[i], &guides[j], &guides[third]].map(Vec::clone);
-            let at = |k: usize| {
-                let w = k as f32 / steps as f32;
-                frenet(&some, &[0.9 * w, 0.9 * (1.0 - w), 0.1])
-            };
-            let mut before = at(0);
-            for k in 1..=steps {
-                let hair = at(k);
-                let slope = farthest(&before, &hair) * steps as f32;
+            let weights: Vec<[f32; 3]> = (0..=steps)
+                .map(|k| k as f32 / steps as f32)
+                .map(|w| [0.9 * w, 0.9 * (1.0 - w), 0.1])
+                .collect();
+            let hairs = frenet_each(&some, &weights);
+            for (k, pair) in hairs.windows(2).enumerate() {
+                let slope = farthest(&pair[0], &pair[1]) * steps as f32;
                 // A jump would be thousands. The steepest is 399, at any number of steps,
                 // where curls of both hands and an S mix to what is almost a ring.
                 assert!(slope < 450.0, "{i} {j} {k}: {slope}");
-                before = hair;
             }
         }
     }
