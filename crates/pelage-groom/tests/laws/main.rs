@@ -428,26 +428,20 @@ fn animated_frizz_moves_with_time_and_what_does_not_move_stays() {
 
 #[test]
 fn the_way_the_texture_lies_on_the_surface_does_not_matter() {
-    let straight = collect(
-        &Fixture {
-            flat: true,
-            ..Fixture::default()
+    for more in ["", "interpolation.space = 'frenet'"] {
+        let [straight, turned] = [false, true].map(|turned_uvs| {
+            let fixture = Fixture {
+                flat: true,
+                turned_uvs,
+                more,
+                ..Fixture::default()
+            };
+            collect(&fixture.plan(), 0..500, 1)
+        });
+        for (p, q) in straight.points.iter().zip(&turned.points) {
+            let apart = Vec3::from(*p).distance(Vec3::from(*q));
+            assert!(apart < 1e-4, "{p:?} {q:?}");
         }
-        .plan(),
-        0..500,
-        1,
-    );
-    let fixture = Fixture {
-        flat: true,
-        turned_uvs: true,
-        ..Fixture::default()
-    };
-    let turned = collect(&fixture.plan(), 0..500, 1);
-    for (p, q) in straight.points.iter().zip(&turned.points) {
-        assert!(
-            Vec3::from(*p).distance(Vec3::from(*q)) < 1e-4,
-            "{p:?} {q:?}"
-        );
     }
 }
 

@@ -22,7 +22,8 @@
 //! side; what is done is done lane by lane, and a hair has the same bits whatever its
 //! neighbours.
 //!
-//! Limits: hairs all around three guides whose phases go round once cannot all be curls
+//! Limits: between a straight guide and a curl κ falls and τ stays, so a tight curl fades by
+//! winding more slowly, up to half as wide again on the way. Hairs all around three guides whose phases go round once cannot all be curls
 //! and change smoothly. Where guides say nothing of the roll, or of the line, the hair goes
 //! over into the mean of the vertices, stretched to its length.
 
@@ -316,13 +317,14 @@ fn mix(parts: Parts, corners: &mut [Corner]) {
     }
 }
 
-/// Cosine and sine of an angle whose half has the tangent `part / whole`; (1, 0) for 0 / 0.
+/// Cosine and sine of an angle whose half has the tangent `part / whole`; (1, 0) for 0 / 0
+/// and what is so small that its square is hardly a number.
 #[inline(always)]
 fn turn(part: f32, whole: f32) -> (f32, f32) {
     let (p, q) = (part * part, whole * whole);
     let square = p + q;
     let over = 1.0 / square;
-    let is_angle = square > 0.0;
+    let is_angle = square > 1e-37;
     (
         if is_angle { (q - p) * over } else { 1.0 },
         if is_angle {

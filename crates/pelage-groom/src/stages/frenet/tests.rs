@@ -305,7 +305,7 @@ proptest! {
     #[test]
     fn whatever_the_guides_hairs_are_finite_and_no_longer_than_they_say(
         points in prop::collection::vec(prop::array::uniform3(-1i8..2), 15),
-        weights in prop::array::uniform3(0.0f32..1.0), exponent in -12i32..12,
+        weights in prop::array::uniform3(0.0f32..1.0), exponent in -30i32..17,
     ) {
         let unit = libm::powf(10.0, exponent as f32);
         let vector = |p: &[i8; 3]| Vec3::from(p.map(f32::from)) * unit;
@@ -317,6 +317,6 @@ proptest! {
         let hair = frenet(&guides, &weights);
         let expected: f32 = guides.iter().zip(weights).map(|(g, w)| length(g) * w).sum();
         prop_assert!(hair.iter().all(|v| v.is_finite()));
-        prop_assert!(length(&hair) <= expected * 1.006 + unit * 1e-6, "{}", length(&hair));
+        prop_assert!(length(&hair) <= expected * 1.006 + unit * 1e-5, "{}", length(&hair));
     }
 }
