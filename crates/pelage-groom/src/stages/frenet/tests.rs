@@ -1,5 +1,7 @@
 use super::*;
 use crate::stages::interpolate::interpolate;
+use pelage_curves::DVec3;
+use pelage_curves::frenet::Frame;
 use proptest::prelude::*;
 use std::f32::consts::TAU;
 
@@ -204,13 +206,25 @@ fn opposite_curls_keep_their_radius_and_length_beside_the_middle() {
 #[test]
 fn coats_of_curls_stand_as_their_guides_do() {
     let guides = [0.0, 0.4, 0.75].map(|phase| helix(0.1, 4.0, phase));
-    let hair = frenet(&guides, &[0.4, 0.35, 0.25]);
-    let tip = hair[SEGMENTS];
-    // The mean of the first bases would tilt it by the curl's own 68 degrees.
-    assert!(
-        Vec3::new(tip.x, tip.y, 0.0).length() < 0.02 * tip.z,
-        "{tip}"
-    );
+    let weights = [0.4, 0.35, 0.25];
+    let lean = |tip: Vec3| tip.normalize().dot(Vec3::Z).clamp(-1.0, 1.0);
+    let fitted = frenet(&guides, &weights)[SEGMENTS];
+    assert!(lean(fitted) > 0.9998, "{fitted}");
+    // On the mean of the first bases it leans by 51 degrees.
+    let shapes = guides.each_ref().map(|guide| {
+        let exact: Vec<_> = guide.iter().map(|v| v.as_dvec3()).collect();
+        Polygon::of(&exact, STRAIGHT).unwrap()
+    });
+    let mean = |axis: fn(&Frame) -> DVec3| -> DVec3 {
+        let parts = shapes.iter().zip(weights);
+        parts.map(|(shape, w)| axis(&shape.frame) * w as f64).sum()
+    };
+    let on_bases = Polygon {
+        frame: Frame::new(mean(|f| f.tangent), mean(|f| f.normal)),
+        ..shapes[0].clone()
+    };
+    let tip = on_bases.points()[SEGMENTS].as_vec3();
+    assert!((lean(tip) - 0.629).abs() < 0.01, "{tip}");
 }
 
 #[test]
