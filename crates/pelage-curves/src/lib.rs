@@ -5,7 +5,8 @@
 //! *through* its vertices is a Catmull-Rom curve whose first and last vertex are
 //! duplicated ([`catmull_rom`]).
 //!
-//! Positions are `f32` ([`Vec3`]); lengths are measured and inverted in `f64`.
+//! Positions are `f32` ([`Vec3`]); lengths are measured and inverted in `f64`. What bends
+//! and winds ([`frenet`]) is `f64` throughout.
 //!
 //! ```
 //! use pelage_curves::{Vec3, Curve, Basis, Wrap};
@@ -22,6 +23,7 @@ mod basis;
 pub mod catmull_rom;
 mod curve;
 mod frames;
+pub mod frenet;
 mod many;
 
 pub use arc_length::ArcLength;

@@ -89,6 +89,11 @@ impl Capture {
         self.roots.is_empty()
     }
 
+    /// The guides of hair number `i`.
+    pub(crate) fn shares(&self, i: usize) -> &[Share] {
+        &self.shares[self.share_starts[i] as usize..self.share_starts[i + 1] as usize]
+    }
+
     /// The part of hair number `i` that stays.
     pub(crate) fn cut(&self, i: usize) -> f32 {
         self.cuts.get(i).copied().unwrap_or(1.0)

@@ -1,7 +1,9 @@
 //! The guides of one interpolation group, ready to be mixed.
 
 use crate::guide::Guide;
+use crate::guide_shapes::GuideShapes;
 use crate::locator::{Locator, Near};
+use crate::recipe::InterpolationSpace;
 use pelage_curves::Vec3;
 use pelage_surface::{Mesh, RootFrame, SurfacePoint};
 
@@ -10,8 +12,10 @@ use pelage_surface::{Mesh, RootFrame, SurfacePoint};
 pub(crate) struct GuideSet {
     /// Segments of the group's hairs.
     pub segments: u32,
-    /// `segments + 1` local vertices a guide, one guide after the other.
-    pub vertices: Vec<Vec3>,
+    /// How hairs are mixed of them.
+    space: InterpolationSpace,
+    /// Their shapes at rest.
+    pub shapes: GuideShapes,
     /// Number of each guide among all of the groom.
     pub numbers: Vec<usize>,
     /// Where each guide grows.
@@ -27,12 +31,13 @@ pub(crate) struct GuideSet {
 }
 
 impl GuideSet {
-    /// Resamples `guides`, each with its number among all of the groom, to `segments` each
-    /// and prepares finding the `nearest`.
+    /// Resamples `guides`, each with its number among all of the groom, to `segments` each,
+    /// and prepares mixing them in `space` and finding the `nearest`.
     pub(crate) fn new(
         mesh: &Mesh,
         guides: &[(usize, &Guide)],
         segments: u32,
+        space: InterpolationSpace,
         nearest: usize,
     ) -> Self {
         let resampled: Vec<Guide> = guides
@@ -41,10 +46,8 @@ impl GuideSet {
             .collect();
         Self {
             segments,
-            vertices: resampled
-                .iter()
-                .flat_map(|g| g.local.iter().copied())
-                .collect(),
+            space,
+            shapes: GuideShapes::new(&locals(&resampled), space),
             numbers: guides.iter().map(|(number, _)| *number).collect(),
             roots: guides.iter().map(|(_, guide)| guide.root).collect(),
             frames: resampled.iter().map(|g| g.frame).collect(),
@@ -58,9 +61,9 @@ impl GuideSet {
         }
     }
 
-    /// Local vertices of the guides as `curves` has them, one curve for each guide of the
-    /// groom, in the space of `surface`.
-    pub(crate) fn posed(&self, surface: &Mesh, curves: &[Vec<Vec3>]) -> Vec<Vec3> {
+    /// Shapes of the guides as `curves` has them, one curve for each guide of the groom, in
+    /// the space of `surface`.
+    pub(crate) fn posed(&self, surface: &Mesh, curves: &[Vec<Vec3>]) -> GuideShapes {
         let guides = self.numbers.iter().zip(&self.roots);
         let posed = guides.map(|(&number, &root)| {
             let curve = &curves[number];
@@ -69,7 +72,7 @@ impl GuideSet {
             let guide = Guide::new(surface, root, &offsets);
             guide.resampled(self.segments as usize).local
         });
-        posed.flatten().collect()
+        GuideShapes::new(&posed.collect::<Vec<_>>(), self.space)
     }
 
     /// Number of guides.
@@ -92,4 +95,8 @@ impl GuideSet {
     pub(crate) fn is_empty(&self) -> bool {
         self.frames.is_empty()
     }
+}
+
+fn locals(guides: &[Guide]) -> Vec<Vec<Vec3>> {
+    guides.iter().map(|guide| guide.local.clone()).collect()
 }

@@ -12,7 +12,7 @@ use crate::neighbors::Sharing;
 use crate::noise_fields::NoiseFields;
 use crate::pose::Moment;
 use crate::random::Channel;
-use crate::recipe::{self, GuideSource, Recipe};
+use crate::recipe::{self, GuideSource, InterpolationSpace, Recipe};
 use crate::stages::flyaway::FlyawayFields;
 use crate::stages::frizz::FrizzFields;
 use crate::stages::strand::StrandFields;
@@ -105,7 +105,7 @@ impl Plan {
             guide_count: all.len(),
             notes,
         };
-        plan.share_out(&all)?;
+        plan.share_out(&all, recipe.interpolation.space)?;
         for level in &recipe.clump.levels {
             plan.add_clumps(level, &mut maker)?;
         }
@@ -114,7 +114,7 @@ impl Plan {
     }
 
     /// Gives each group its guides; a group whose hairs would have none is an error.
-    fn share_out(&mut self, all: &[Guide]) -> Result<(), PlanError> {
+    fn share_out(&mut self, all: &[Guide], space: InterpolationSpace) -> Result<(), PlanError> {
         let (groups, rest) = (&self.roots.groups, &self.roots.rest);
         let Some(sampler) = self.roots.sampler() else {
             return Ok(());
@@ -131,7 +131,7 @@ impl Plan {
                 .map(|(guide, _)| guide)
                 .collect();
             self.guides
-                .push(GuideSet::new(rest, &mine, group.segments, nearest));
+                .push(GuideSet::new(rest, &mine, group.segments, space, nearest));
         }
         let lonely = sampler
             .piece_centres()

@@ -3,6 +3,7 @@
 use crate::PlanError;
 use crate::capture::Capture;
 use crate::curves::Curves;
+use crate::guide_shapes::GuideShapes;
 use crate::plan::Plan;
 use crate::stages::roots::Root;
 use pelage_curves::Vec3;
@@ -28,8 +29,8 @@ pub struct Pose {
 #[derive(Clone, Debug)]
 pub struct Posed {
     surface: Option<Arc<Mesh>>,
-    /// Local vertices of the guides of each group, as in the plan.
-    guides: Option<Vec<Vec<Vec3>>>,
+    /// Shapes of the guides of each group.
+    guides: Option<Vec<GuideShapes>>,
     time: f32,
     /// The hairs in the middles of clumps, level by level.
     middles: Vec<Curves>,
@@ -39,7 +40,7 @@ pub struct Posed {
 #[derive(Clone, Copy)]
 pub(crate) struct Moment<'a> {
     pub surface: Option<&'a Mesh>,
-    pub guides: Option<&'a [Vec<Vec3>]>,
+    pub guides: Option<&'a [GuideShapes]>,
     pub time: f32,
     pub middles: &'a [Curves],
 }
@@ -81,12 +82,12 @@ impl Plan {
         Ok(posed)
     }
 
-    /// Local vertices of the guides, group by group.
+    /// Shapes of the guides, group by group.
     fn posed_guides(
         &self,
         surface: Option<&Mesh>,
         curves: &[Vec<Vec3>],
-    ) -> Result<Vec<Vec<Vec3>>, PlanError> {
+    ) -> Result<Vec<GuideShapes>, PlanError> {
         if curves.len() != self.guide_count() {
             return Err(PlanError::PosedGuides {
                 found: curves.len(),

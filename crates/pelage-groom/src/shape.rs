@@ -6,7 +6,7 @@ use crate::clock::{Clock, Stage};
 use crate::curves::Curves;
 use crate::plan::Plan;
 use crate::pose::Moment;
-use crate::stages::{cut, flyaway, frizz, interpolate, kink, length, scale, world};
+use crate::stages::{cut, flyaway, frenet, frizz, kink, length, world};
 use crate::stay::Stay;
 use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
@@ -24,6 +24,7 @@ pub(crate) struct Shapes {
     /// Vertices as they were before a stage.
     before: Vec<Vec3>,
     noise: [Vec<Vec3>; 3],
+    frenet: frenet::Scratch,
     bundles: BundleScratch,
 }
 
@@ -117,12 +118,13 @@ impl Plan {
             before,
             noise,
             stay,
+            frenet,
             ..
         } = shapes;
         let started = clock.start();
-        self.interpolate(capture, moment.guides, curves);
+        self.mix(capture, moment.guides, frenet, curves);
         if moment.guides.is_some() {
-            self.interpolate(capture, None, at_rest);
+            self.mix(capture, None, frenet, at_rest);
         }
         let rest = moment.guides.map_or(&*curves, |_| &*at_rest);
         self.find_degenerate(capture, rest, stay);
@@ -165,19 +167,6 @@ impl Plan {
             let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
             frizz::frizz(fields, &capture.frizz, time, range, vertices, noise);
         });
-    }
-
-    /// Hairs as their guides have them, which are those at rest unless others are given.
-    fn interpolate(&self, capture: &Capture, posed: Option<&[Vec<Vec3>]>, hairs: &mut Curves) {
-        let segments = |group: u32| self.guides[group as usize].segments;
-        hairs.lay_out(capture.roots.iter().map(|root| segments(root.group) + 1));
-        for (i, root) in capture.roots.iter().enumerate() {
-            let shares = capture.share_starts[i] as usize..capture.share_starts[i + 1] as usize;
-            let (hair, group) = (hairs.get_mut(i), root.group as usize);
-            let guides = posed.map_or(&self.guides[group].vertices, |posed| &posed[group]);
-            interpolate::interpolate(guides, &capture.shares[shares], hair);
-            scale::scale(capture.scale[i], hair);
-        }
     }
 }
 

@@ -23,7 +23,8 @@ words! {
     pub enum InterpolationSpace {
         /// The vertices, in the local frame of the root.
         Vertices = "vertices",
-        /// Curvature and torsion along the strand (document 000, 4.3).
+        /// Curvature and torsion along the strand (document 000, 4.3): curls stay
+        /// curls between guides whose curls differ in phase.
         Frenet = "frenet",
     }
 }

@@ -18,10 +18,7 @@ const fn waiting(key: &'static str, stage: &'static str) -> Waiting {
 
 /// Every key that switches a missing stage on. Keys that do nothing alone, such
 /// as `frizz.frequency` while both amounts are 0, need no line.
-const WAITING: &[Waiting] = &[waiting(
-    "interpolation.space",
-    "interpolation in Frenet space",
-)];
+const WAITING: &[Waiting] = &[];
 
 /// Whether values along a strand can be given as ramps.
 pub(super) const RAMPS: bool = false;

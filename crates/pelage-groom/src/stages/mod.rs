@@ -9,6 +9,7 @@ pub mod degenerate;
 pub mod facing;
 pub mod flyaway;
 pub mod frames;
+pub mod frenet;
 pub mod frizz;
 pub mod interpolate;
 pub mod kink;

@@ -46,6 +46,7 @@ const STRANDS: &str = "frizz = { tip = 0.2, animation = { amount = 0.5, speed = 
     kink = { tip = 0.05, frequency = [9, 9, 9] }
     cut.length = { map = 'length.png' }
     output.skip_threshold = 0.95
+    interpolation.space = 'frenet'
     [strand]
     count = 3
     splay = { root = 0.01, center = { value = 0.05, map = 'length.png' }, tip = 0.02 }
@@ -68,16 +69,23 @@ const STRANDS: &str = "frizz = { tip = 0.2, animation = { amount = 0.5, speed = 
     percent = 20.0
 ";
 
+/// Hairs mixed by curvature and torsion, and all that comes after.
+const FRENET: &str = "interpolation.space = 'frenet'
+    frizz = { tip = 0.1, frequency = [2, 3, 2] }
+    cut.length = { map = 'length.png' }
+    output.skip_threshold = 0.98
+";
+
 /// Every kind of roots, and of hairs.
 pub fn kinds() -> impl Iterator<Item = Fixture<'static>> {
     let patterns = ["roots.pattern = 'random'", "roots.pattern = 'blue-noise'"];
     let [random, blue_noise] = patterns;
-    ["", DISPLACED, NOISY, random, blue_noise, SHARED, STRANDS]
-        .into_iter()
-        .map(|more| Fixture {
-            more,
-            ..Fixture::default()
-        })
+    let roots = ["", DISPLACED, NOISY, random, blue_noise];
+    let all = roots.into_iter().chain([SHARED, FRENET, STRANDS]);
+    all.map(|more| Fixture {
+        more,
+        ..Fixture::default()
+    })
 }
 
 impl Default for Fixture<'_> {

@@ -1,7 +1,8 @@
 //! What the guides of a hair are, and how they share it.
 
-use crate::fixture::collect;
+use crate::fixture::{Fixture, collect};
 use pelage_curves::Vec3;
+use pelage_groom::random::{Channel, uniform};
 use pelage_groom::recipe::Recipe;
 use pelage_groom::{Groom, Images, Plan};
 use pelage_strands::StrandBuffer;
@@ -110,5 +111,107 @@ fn where_every_guide_points_into_the_skin_hairs_grow_by_distance() {
     assert_eq!(strands.len(), 200);
     for i in 0..strands.len() {
         assert!((tip(&strands, i) + Vec3::Z).length() < 1e-4);
+    }
+}
+
+#[test]
+fn hairs_that_grow_side_by_side_look_alike_also_where_their_guides_change() {
+    for more in ["", "interpolation.space = 'frenet'"] {
+        let fixture = Fixture {
+            flat: true,
+            more,
+            ..Fixture::default()
+        };
+        assert_alike(&collect(&fixture.plan(), 0..5000, 2));
+    }
+}
+
+fn assert_alike(strands: &StrandBuffer) {
+    let root = |i: usize| strands.strand_points(i)[0];
+    let mut pairs = 0;
+    for i in 0..strands.len() {
+        for j in i + 1..strands.len() {
+            let apart = root(i).distance(root(j));
+            if apart < 0.02 {
+                pairs += 1;
+                // Guides stand 0.25 apart and are 0.4 long: over that distance a tip may
+                // turn right round, some 3 lengths a length, and twice that beside a guide.
+                // A jump would be 20.
+                let [a, b] = [i, j].map(|k| strands.strand_points(k));
+                let between = |k: usize| (a[k] - a[0]).distance(b[k] - b[0]);
+                let jump = (1..a.len()).map(between).fold(0.0, f32::max);
+                assert!(jump < 8.0 * apart, "hairs {i}, {j}: {jump} over {apart}");
+            }
+        }
+    }
+    assert!(pairs > 300, "{pairs}");
+}
+
+/// Curls that stand on a sheet, at random phases; hairs of them with more lines.
+fn curls(more: &str) -> StrandBuffer {
+    let sheet = PolygonMesh {
+        positions: vec![[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]],
+        face_sizes: vec![4],
+        corner_vertices: vec![0, 1, 2, 3],
+        ..PolygonMesh::default()
+    };
+    let guide = |i: u32| {
+        let [x, y] = [i % 8, i / 8].map(|k| (k as f32 + 0.5) / 8.0);
+        let phase = uniform(1, i as u64, Channel::GuideCurl);
+        let at = |k: u32| {
+            let t = k as f32 / 36.0;
+            let angle = std::f32::consts::TAU * (3.0 * t + phase);
+            Vec3::new(
+                RADIUS * libm::cosf(angle),
+                RADIUS * libm::sinf(angle),
+                0.5 * t,
+            )
+        };
+        let root = Vec3::new(x, y, 0.0);
+        (0..=36).map(|k| root + at(k) - at(0)).collect()
+    };
+    let text = format!(
+        "{more}
+        surface.mesh = 'sheet.obj'
+        guides.curves = 'guides.usda'
+        hair.count = 2000"
+    );
+    let groom = Groom {
+        recipe: Recipe::parse(&text, Path::new("groom.toml")).unwrap(),
+        mesh: sheet,
+        keep_file_normals: false,
+        images: Images::new(),
+        guides: (0..64).map(guide).collect(),
+    };
+    collect(&Plan::new(groom).unwrap(), 0..2000, 2)
+}
+
+const RADIUS: f32 = 0.05;
+
+/// Part of the radius that hair `i` has of its guides: root mean square distance from the
+/// middle of whole turns.
+fn radius_kept(strands: &StrandBuffer, i: usize) -> f32 {
+    let points = strands.strand_points(i);
+    let turns = points[..points.len() - 1].iter();
+    let flat = turns.map(|p| Vec3::new(p.x, p.y, 0.0));
+    let count = flat.len() as f32;
+    let middle = flat.clone().sum::<Vec3>() / count;
+    let squares: f32 = flat.map(|p| p.distance_squared(middle)).sum();
+    (squares / count).sqrt() / RADIUS
+}
+
+#[test]
+fn curls_keep_their_radius_in_frenet_space_and_lose_it_by_vertices() {
+    for method in ["inverse-distance", "natural-neighbor"] {
+        let mean = |space: &str| {
+            let strands = curls(&format!(
+                "interpolation = {{ space = '{space}', method = '{method}' }}"
+            ));
+            let kept = (0..strands.len()).map(|i| radius_kept(&strands, i));
+            kept.sum::<f32>() / strands.len() as f32
+        };
+        let (vertices, frenet) = (mean("vertices"), mean("frenet"));
+        println!("{method}: vertices {vertices}, frenet {frenet}");
+        assert!(vertices < 0.9 && frenet > 0.98, "{vertices} {frenet}");
     }
 }

@@ -449,57 +449,21 @@ fn animated_frizz_moves_with_time_and_what_does_not_move_stays() {
 
 #[test]
 fn the_way_the_texture_lies_on_the_surface_does_not_matter() {
-    let straight = collect(
-        &Fixture {
-            flat: true,
-            ..Fixture::default()
-        }
-        .plan(),
-        0..500,
-        1,
-    );
-    let fixture = Fixture {
-        flat: true,
-        turned_uvs: true,
-        ..Fixture::default()
-    };
-    let turned = collect(&fixture.plan(), 0..500, 1);
-    for (p, q) in straight.points.iter().zip(&turned.points) {
-        assert!(
-            Vec3::from(*p).distance(Vec3::from(*q)) < 1e-4,
-            "{p:?} {q:?}"
-        );
-    }
-}
-
-#[test]
-fn hairs_that_grow_side_by_side_look_alike_also_where_their_guides_change() {
-    let plan = Fixture {
-        flat: true,
-        ..Fixture::default()
-    }
-    .plan();
-    let strands = collect(&plan, 0..5000, 2);
-    let root = |i: usize| strands.strand_points(i)[0];
-    let tip = |i: usize| {
-        let points = strands.strand_points(i);
-        points[points.len() - 1] - points[0]
-    };
-    let mut pairs = 0;
-    for i in 0..strands.len() {
-        for j in i + 1..strands.len() {
-            let apart = root(i).distance(root(j));
-            if apart < 0.02 {
-                pairs += 1;
-                // Guides stand 0.25 apart and are 0.4 long: over that distance a tip may
-                // turn right round, some 3 lengths a length, and twice that beside a guide.
-                // A jump would be 20.
-                let jump = tip(i).distance(tip(j));
-                assert!(jump < 8.0 * apart, "hairs {i}, {j}: {jump} over {apart}");
-            }
+    for more in ["", "interpolation.space = 'frenet'"] {
+        let [straight, turned] = [false, true].map(|turned_uvs| {
+            let fixture = Fixture {
+                flat: true,
+                turned_uvs,
+                more,
+                ..Fixture::default()
+            };
+            collect(&fixture.plan(), 0..500, 1)
+        });
+        for (p, q) in straight.points.iter().zip(&turned.points) {
+            let apart = Vec3::from(*p).distance(Vec3::from(*q));
+            assert!(apart < 1e-4, "{p:?} {q:?}");
         }
     }
-    assert!(pairs > 300, "{pairs}");
 }
 
 #[test]
