@@ -3,15 +3,17 @@
 //! Depends on the plan and the hairs' indices alone (architecture.md, laws 1 and 4).
 
 use crate::clock::{Clock, Stage};
-use crate::color::ColorMix;
+use crate::columns::Columns;
+use crate::looks::LookScratch;
 use crate::neighbors::Neighbors;
 use crate::noise_fields::HairNoise;
-use crate::plan::{Fields, Plan};
+use crate::plan::Plan;
 use crate::stages::frizz::Frizz;
 use crate::stages::look::Look;
 use crate::stages::roots::{Root, root};
 use crate::stages::scale;
 use crate::stages::weights::{Share, turn};
+use pelage_curves::Vec2;
 use pelage_surface::{RootFrame, SurfacePoint};
 use std::ops::Range;
 
@@ -60,6 +62,9 @@ pub struct Capture {
     dropped: Dropped,
     hairs: Vec<u64>,
     places: Vec<SurfacePoint>,
+    uvs: Vec<Vec2>,
+    columns: Columns,
+    look_scratch: LookScratch,
     neighbors: Neighbors,
 }
 
@@ -135,37 +140,74 @@ impl Plan {
         let started = clock.stop(Stage::Roots, started);
         self.weigh(capture);
         let started = clock.stop(Stage::Weights, started);
-        let Fields { frizz, kink, .. } = &self.fields;
-        capture.frizz.clear();
-        if let Some(fields) = frizz {
-            let hairs = capture.roots.iter().map(|root| fields.at(root));
-            capture.frizz.extend(hairs);
-        }
-        capture.kinks.clear();
-        if let Some(fields) = kink {
-            let hairs = capture.roots.iter().map(|root| fields.at(root.uv));
-            capture.kinks.extend(hairs);
-        }
-        capture.looks.clear();
-        capture
-            .looks
-            .extend(capture.roots.iter().map(|root| self.look(root)));
+        self.read_maps(capture);
         clock.stop(Stage::Maps, started);
+    }
+
+    /// Reads the properties that bend and colour hairs.
+    fn read_maps(&self, capture: &mut Capture) {
+        let Capture {
+            roots,
+            uvs,
+            columns,
+            frizz,
+            kinks,
+            looks,
+            look_scratch,
+            ..
+        } = capture;
+        list_uvs(roots, uvs);
+        frizz.clear();
+        if let Some(fields) = &self.fields.frizz {
+            let hairs = roots.iter().zip(columns.read(fields.fields(), uvs));
+            frizz.extend(hairs.map(|(root, values)| fields.hair(root, values)));
+        }
+        kinks.clear();
+        if let Some(fields) = &self.fields.kink {
+            kinks.extend(columns.read(fields.fields(), uvs).map(HairNoise::new));
+        }
+        looks.clear();
+        let fields = &self.fields;
+        fields.read_looks(roots, uvs, self.seed, look_scratch, looks);
+    }
+
+    /// Reads how long hairs are compared with their guides, and what part of them stays.
+    fn read_lengths(&self, capture: &mut Capture) {
+        let Capture {
+            roots,
+            uvs,
+            columns,
+            scale,
+            cuts,
+            ..
+        } = capture;
+        list_uvs(roots, uvs);
+        let f = &self.fields;
+        let factors = columns.read([&f.scale, &f.scale_random], uvs).zip(&*roots);
+        scale.clear();
+        scale.extend(
+            factors.map(|([amount, random], root)| {
+                scale::factor(amount, random, self.seed, root.hair)
+            }),
+        );
+        cuts.clear();
+        if let Some(field) = &f.cut {
+            field.read(uvs, cuts);
+            cuts.iter_mut().for_each(|cut| *cut = cut.clamp(0.0, 1.0));
+        }
     }
 
     /// Finds guides, weights and scale, and drops hairs that have no length.
     fn weigh(&self, capture: &mut Capture) {
-        capture.scale.clear();
-        capture.cuts.clear();
+        self.read_lengths(capture);
         capture.shares.clear();
         capture.share_starts.clear();
         capture.share_starts.push(0);
         let mut kept = 0;
         for i in 0..capture.roots.len() {
             let root = capture.roots[i];
-            let f = &self.fields;
-            let factor = scale::factor(&f.scale, &f.scale_random, root.uv, self.seed, root.hair);
-            let cut = f.cut.as_ref().map(|cut| cut.at(root.uv).clamp(0.0, 1.0));
+            let factor = capture.scale[i];
+            let cut = capture.cuts.get(i).copied();
             if cut == Some(0.0) {
                 capture.dropped.cut += 1;
                 continue;
@@ -204,23 +246,22 @@ impl Plan {
             }
             capture.roots[kept] = root;
             capture.frames[kept] = frame;
+            capture.scale[kept] = factor;
+            if let Some(cut) = cut {
+                capture.cuts[kept] = cut;
+            }
             kept += 1;
-            capture.scale.push(factor);
-            capture.cuts.extend(cut);
             capture.share_starts.push(capture.shares.len() as u32);
         }
         capture.roots.truncate(kept);
         capture.frames.truncate(kept);
+        capture.scale.truncate(kept);
+        capture.cuts.truncate(kept);
     }
+}
 
-    fn look(&self, root: &Root) -> Look {
-        let f = &self.fields;
-        let common = [0, 1].map(|k| f.color[k].at(root.uv));
-        let [from, to] = f.tint.apply(common, root.uv, self.seed, root.hair);
-        Look {
-            color: ColorMix::new(f.color_space, from, to),
-            opacity: [0, 1].map(|k| f.opacity[k].at(root.uv).clamp(0.0, 1.0)),
-            width: [0, 1].map(|k| f.width[k].at(root.uv).max(0.0)),
-        }
-    }
+/// Writes the texture coordinates of `roots` to `uvs`, which is emptied first.
+fn list_uvs(roots: &[Root], uvs: &mut Vec<Vec2>) {
+    uvs.clear();
+    uvs.extend(roots.iter().map(|root| root.uv));
 }

@@ -10,6 +10,7 @@
 mod capture;
 mod clock;
 pub mod color;
+mod columns;
 mod error;
 mod evaluate;
 mod generate;
@@ -20,6 +21,7 @@ mod guide;
 mod guide_set;
 mod in_order;
 mod locator;
+mod looks;
 mod maps;
 mod missing_tiles;
 mod neighbors;

@@ -1,5 +1,10 @@
 //! Images that modulate properties over the surface.
 
+use pelage_curves::Vec2;
+
+/// Places that are read together.
+const BATCH: usize = 64;
+
 /// What lies outside 0..1 in texture space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
@@ -166,6 +171,54 @@ impl ImageMap {
         })
     }
 
+    /// Writes [`sample`](Self::sample) at all of `uvs` to `values`, of the same length.
+    ///
+    /// Where the texels of many places lie is known before the first of them is read, and
+    /// little is done between two readings: so processors wait for many at once.
+    pub fn sample_all(&self, uvs: &[Vec2], channel: u32, wrap: Wrap, values: &mut [f32]) {
+        let channel = channel.min(self.channels - 1) as usize;
+        for (uvs, values) in uvs.chunks(BATCH).zip(values.chunks_mut(BATCH)) {
+            let corners = self.corners(uvs, wrap);
+            for (value, corners) in values.iter_mut().zip(&corners) {
+                *value = corners.blend(|at| self.texels[at + channel]);
+            }
+        }
+    }
+
+    /// Writes [`sample_rgb`](Self::sample_rgb) at all of `uvs` to `colors`, of the same
+    /// length.
+    pub fn sample_rgb_all(&self, uvs: &[Vec2], wrap: Wrap, colors: &mut [[f32; 3]]) {
+        for (uvs, colors) in uvs.chunks(BATCH).zip(colors.chunks_mut(BATCH)) {
+            let corners = self.corners(uvs, wrap);
+            for (color, corners) in colors.iter_mut().zip(&corners) {
+                *color = if self.channels >= 3 {
+                    std::array::from_fn(|k| corners.blend(|at| self.texels[at + k]))
+                } else {
+                    [corners.blend(|at| self.texels[at]); 3]
+                };
+            }
+        }
+    }
+
+    /// Where the texels around each of up to [`BATCH`] places begin.
+    #[inline(always)]
+    fn corners(&self, uvs: &[Vec2], wrap: Wrap) -> [Corners; BATCH] {
+        let mut corners = [Corners::default(); BATCH];
+        for (corners, uv) in corners.iter_mut().zip(uvs) {
+            let around = self.around(uv.x, uv.y, wrap);
+            let at = |i: usize, j: usize| {
+                let row = around.rows[j] as usize * self.width as usize;
+                (row + around.columns[i] as usize) * self.channels as usize
+            };
+            *corners = Corners {
+                starts: [at(0, 0), at(1, 0), at(0, 1), at(1, 1)],
+                across: around.across,
+                down: around.down,
+            };
+        }
+        corners
+    }
+
     /// The texel that `(u, v)` falls in, unfiltered: for maps whose colours are names.
     pub fn nearest(&self, u: f32, v: f32, wrap: Wrap) -> &[f32] {
         let [x, y] = wrap.texel([u, v], [self.width, self.height]);
@@ -221,6 +274,21 @@ impl Around {
     pub(crate) fn blend(&self, at: impl Fn(usize, usize) -> f32) -> f32 {
         let four = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
         bilinear(four, self.across, self.down)
+    }
+}
+
+/// Where the four texels around a place begin, and how far it lies between them.
+#[derive(Clone, Copy, Default)]
+struct Corners {
+    starts: [usize; 4],
+    across: f32,
+    down: f32,
+}
+
+impl Corners {
+    #[inline(always)]
+    fn blend(&self, texel: impl Fn(usize) -> f32) -> f32 {
+        bilinear(self.starts.map(texel), self.across, self.down)
     }
 }
 

@@ -11,8 +11,10 @@
 //! (hue 0), as in the document.
 
 use crate::color::{hsv_from_rgb, rgb_from_hsv};
+use crate::columns::Columns;
 use crate::maps::{ColorField, ScalarField};
 use crate::random::{Channel, uniform};
+use crate::stages::roots::Root;
 use pelage_curves::Vec2;
 
 /// What makes hairs differ in colour, over the surface.
@@ -31,35 +33,48 @@ pub struct Tint {
 }
 
 impl Tint {
-    /// Colours at root and tip of hair `hair` with its root at `uv`, from those of all
-    /// hairs there. Amounts of 0 give them back bit for bit.
-    #[inline]
-    pub fn apply(&self, common: [[f32; 3]; 2], uv: Vec2, seed: u64, hair: u64) -> [[f32; 3]; 2] {
-        let random = |channel| uniform(seed, hair, channel);
-        let share = self.mutant_percent.at(uv) / 100.0;
-        let mutant = share > 0.0 && random(Channel::Mutant) < share;
-        let colors = if mutant {
-            [self.mutant_color.at(uv); 2]
-        } else {
-            common
-        };
-        let shift = |field: &ScalarField, most: f32, channel| {
-            let amount = field.at(uv).clamp(0.0, most);
-            if amount > 0.0 {
-                amount * 2.0 * (random(channel) - 0.5)
-            } else {
-                0.0
-            }
-        };
-        let shifts = [
-            shift(&self.hue, 180.0, Channel::Hue),
-            shift(&self.saturation, 1.0, Channel::Saturation),
-            shift(&self.value, 1.0, Channel::Value),
+    /// Changes the colours at root and tip of the hairs at `roots`, whose texture
+    /// coordinates are `uvs`. Amounts of 0 leave them as they are, bit for bit.
+    pub(crate) fn apply(
+        &self,
+        roots: &[Root],
+        uvs: &[Vec2],
+        seed: u64,
+        columns: &mut Columns,
+        [from, to]: [&mut [[f32; 3]]; 2],
+    ) {
+        let fields = [
+            &self.mutant_percent,
+            &self.hue,
+            &self.saturation,
+            &self.value,
         ];
-        if shifts == [0.0; 3] {
-            colors
-        } else {
-            colors.map(|color| shifted(color, shifts))
+        let amounts = columns.read(fields, uvs);
+        let colors = from.iter_mut().zip(to);
+        for ((root, amounts), (from, to)) in roots.iter().zip(amounts).zip(colors) {
+            let random = |channel| uniform(seed, root.hair, channel);
+            let share = amounts[0] / 100.0;
+            if share > 0.0 && random(Channel::Mutant) < share {
+                *from = self.mutant_color.at(root.uv);
+                *to = *from;
+            }
+            let shift = |amount: f32, most: f32, channel| {
+                let amount = amount.clamp(0.0, most);
+                if amount > 0.0 {
+                    amount * 2.0 * (random(channel) - 0.5)
+                } else {
+                    0.0
+                }
+            };
+            let shifts = [
+                shift(amounts[1], 180.0, Channel::Hue),
+                shift(amounts[2], 1.0, Channel::Saturation),
+                shift(amounts[3], 1.0, Channel::Value),
+            ];
+            if shifts != [0.0; 3] {
+                *from = shifted(*from, shifts);
+                *to = shifted(*to, shifts);
+            }
         }
     }
 }
