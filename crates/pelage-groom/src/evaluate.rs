@@ -9,6 +9,7 @@ use crate::plan::Plan;
 use crate::shape::Shapes;
 use crate::stages::roots::Root;
 use crate::stages::{frames, look, world};
+use fearless_simd::{Level, dispatch};
 use pelage_curves::FrameScratch;
 use pelage_strands::{StrandBuffer, StrandMeta};
 use pelage_surface::{Mesh, RootFrame};
@@ -100,6 +101,14 @@ impl Plan {
     }
 
     fn color(&self, capture: &Capture, shapes: &Shapes, out: &mut StrandBuffer) {
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            self.color_all(capture, shapes, out)
+        });
+    }
+
+    #[inline(always)]
+    fn color_all(&self, capture: &Capture, shapes: &Shapes, out: &mut StrandBuffer) {
         for (i, one) in capture.looks.iter().enumerate() {
             let range = out.vertices(i);
             let segments = self.guides[capture.roots[i].group as usize].segments;
