@@ -84,22 +84,27 @@ fn fill<const N: usize>(
     }
 }
 
-/// Hue in degrees 0..360, saturation and value in 0..=1.
+/// Hue in degrees 0..360, saturation and value in 0..=1. Everything is computed and the
+/// right one chosen, so that many colours go side by side.
+#[inline(always)]
 pub fn hsv_from_rgb([r, g, b]: [f32; 3]) -> [f32; 3] {
     let value = r.max(g).max(b);
     let chroma = value - r.min(g).min(b);
-    if chroma <= 0.0 {
-        return [0.0, 0.0, value];
-    }
-    let sector = if value == r {
-        (g - b) / chroma
+    let grey = chroma <= 0.0;
+    let (apart, of) = if value == r {
+        (g - b, 0.0)
     } else if value == g {
-        2.0 + (b - r) / chroma
+        (b - r, 2.0)
     } else {
-        4.0 + (r - g) / chroma
+        (r - g, 4.0)
     };
+    let sector = of + apart / chroma;
     let hue = 60.0 * if sector < 0.0 { sector + 6.0 } else { sector };
-    [hue, chroma / value, value]
+    if grey {
+        [0.0, 0.0, value]
+    } else {
+        [hue, chroma / value, value]
+    }
 }
 
 /// The inverse of [`hsv_from_rgb`]; any hue, taken modulo 360.

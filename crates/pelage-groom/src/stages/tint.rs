@@ -15,6 +15,7 @@ use crate::columns::Columns;
 use crate::maps::{ColorField, ScalarField};
 use crate::random::{Channel, uniform};
 use crate::stages::roots::Root;
+use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec2;
 
 /// What makes hairs differ in colour, over the surface.
@@ -41,6 +42,21 @@ impl Tint {
         uvs: &[Vec2],
         seed: u64,
         columns: &mut Columns,
+        colors: [&mut [[f32; 3]]; 2],
+    ) {
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            self.apply_to_rows(roots, uvs, seed, columns, colors)
+        });
+    }
+
+    #[inline(always)]
+    fn apply_to_rows(
+        &self,
+        roots: &[Root],
+        uvs: &[Vec2],
+        seed: u64,
+        columns: &mut Columns,
         [from, to]: [&mut [[f32; 3]]; 2],
     ) {
         let fields = [
@@ -49,37 +65,85 @@ impl Tint {
             &self.saturation,
             &self.value,
         ];
-        let amounts = columns.read(fields, uvs);
-        let colors = from.iter_mut().zip(to);
-        for ((root, amounts), (from, to)) in roots.iter().zip(amounts).zip(colors) {
-            let random = |channel| uniform(seed, root.hair, channel);
-            let share = amounts[0] / 100.0;
-            if share > 0.0 && random(Channel::Mutant) < share {
-                *from = self.mutant_color.at(root.uv);
-                *to = *from;
-            }
-            let shift = |amount: f32, most: f32, channel| {
-                let amount = amount.clamp(0.0, most);
-                if amount > 0.0 {
-                    amount * 2.0 * (random(channel) - 0.5)
-                } else {
-                    0.0
+        let mut amounts = columns.read(fields, uvs);
+        let colors = from.chunks_mut(ROW).zip(to.chunks_mut(ROW));
+        for (roots, (from, to)) in roots.chunks(ROW).zip(colors) {
+            let mut row = Row::default();
+            for (k, (root, amounts)) in roots.iter().zip(&mut amounts).enumerate() {
+                row.hairs[k] = root.hair;
+                for (all, amount) in row.amounts.iter_mut().zip(amounts) {
+                    all[k] = amount;
                 }
-            };
-            let shifts = [
-                shift(amounts[1], 180.0, Channel::Hue),
-                shift(amounts[2], 1.0, Channel::Saturation),
-                shift(amounts[3], 1.0, Channel::Value),
-            ];
-            if shifts != [0.0; 3] {
-                *from = shifted(*from, shifts);
-                *to = shifted(*to, shifts);
             }
+            let (mutants, shifts) = row.draw(seed);
+            for (k, root) in roots.iter().enumerate().filter(|(k, _)| mutants[*k]) {
+                from[k] = self.mutant_color.at(root.uv);
+                to[k] = from[k];
+            }
+            shift_row(from, &shifts);
+            shift_row(to, &shifts);
         }
     }
 }
 
+/// Hairs whose colours are changed together.
+const ROW: usize = 16;
+
+/// What changes the colours of a row of hairs.
+#[derive(Default)]
+struct Row {
+    hairs: [u64; ROW],
+    /// Per cent of mutants, and largest shifts.
+    amounts: [[f32; ROW]; 4],
+}
+
+impl Row {
+    /// Which hairs are mutants, and the shifts of hue, saturation and value.
+    #[inline(always)]
+    fn draw(&self, seed: u64) -> ([bool; ROW], [[f32; ROW]; 3]) {
+        let [percent, hue, saturation, value] = &self.amounts;
+        let mut mutants = [false; ROW];
+        for k in 0..ROW {
+            let share = percent[k] / 100.0;
+            mutants[k] = uniform(seed, self.hairs[k], Channel::Mutant) < share;
+        }
+        let shifts = |amounts: &[f32; ROW], most: f32, channel| {
+            let mut shifts = [0.0; ROW];
+            for k in 0..ROW {
+                let random = uniform(seed, self.hairs[k], channel);
+                shifts[k] = amounts[k].clamp(0.0, most) * 2.0 * (random - 0.5);
+            }
+            shifts
+        };
+        let shifts = [
+            shifts(hue, 180.0, Channel::Hue),
+            shifts(saturation, 1.0, Channel::Saturation),
+            shifts(value, 1.0, Channel::Value),
+        ];
+        (mutants, shifts)
+    }
+}
+
+/// Shifts the colours of a row; those without shifts stay as they are.
+#[inline(always)]
+fn shift_row(colors: &mut [[f32; 3]], [hue, saturation, value]: &[[f32; ROW]; 3]) {
+    let [mut r, mut g, mut b] = [[0.0; ROW]; 3];
+    for (k, color) in colors.iter().enumerate() {
+        [r[k], g[k], b[k]] = *color;
+    }
+    for k in 0..ROW {
+        let (color, shifts) = ([r[k], g[k], b[k]], [hue[k], saturation[k], value[k]]);
+        let moved = shifted(color, shifts);
+        let still = shifts == [0.0; 3];
+        [r[k], g[k], b[k]] = if still { color } else { moved };
+    }
+    for (k, color) in colors.iter_mut().enumerate() {
+        *color = [r[k], g[k], b[k]];
+    }
+}
+
 /// `color` with `shifts` (hue in degrees, saturation, value) taken off in HSV.
+#[inline(always)]
 fn shifted(color: [f32; 3], shifts: [f32; 3]) -> [f32; 3] {
     let [hue, saturation, value] = hsv_from_rgb(color);
     rgb_from_hsv([
