@@ -60,7 +60,8 @@ impl ColorMix {
     #[inline(always)]
     pub fn at<const N: usize>(&self, ts: &[f32; N]) -> [[f32; N]; 3] {
         let mut colors = [[0.0; N]; 3];
-        let mixed = |t: f32| -> [f32; 3] { std::array::from_fn(|k| self.root[k] + self.step[k] * t) };
+        let mixed =
+            |t: f32| -> [f32; 3] { std::array::from_fn(|k| self.root[k] + self.step[k] * t) };
         match self.space {
             ColorSpace::Hsv => fill(&mut colors, ts, |t| rgb_from_hsv(mixed(t))),
             ColorSpace::Oklab => fill(&mut colors, ts, |t| {
@@ -167,7 +168,9 @@ mod tests {
         // Magenta-red (330°) to orange (30°): the middle is red, not cyan.
         let from = rgb_from_hsv([330.0, 1.0, 1.0]);
         let to = rgb_from_hsv([30.0, 1.0, 1.0]);
-        let middle = ColorMix::new(ColorSpace::Hsv, from, to).at(&[0.5]).map(|part| part[0]);
+        let middle = ColorMix::new(ColorSpace::Hsv, from, to)
+            .at(&[0.5])
+            .map(|part| part[0]);
         assert!(near(middle, [1.0, 0.0, 0.0], 1e-5), "{middle:?}");
     }
 

@@ -2,6 +2,7 @@
 
 use crate::guide::Guide;
 use crate::locator::{Locator, Near};
+use crate::stages::interpolate::{self, Row};
 use pelage_curves::Vec3;
 use pelage_surface::{Mesh, RootFrame};
 
@@ -10,8 +11,8 @@ use pelage_surface::{Mesh, RootFrame};
 pub(crate) struct GuideSet {
     /// Segments of the group's hairs.
     pub segments: u32,
-    /// `segments + 1` local vertices a guide, one guide after the other.
-    pub vertices: Vec<Vec3>,
+    /// `segments + 1` local vertices a guide, in rows, one guide after the other.
+    pub vertices: Vec<Row>,
     /// Frame of each guide's root at rest.
     pub frames: Vec<RootFrame>,
     /// Direction at rest in which each guide leaves its root; unit vectors.
@@ -33,7 +34,7 @@ impl GuideSet {
             segments,
             vertices: resampled
                 .iter()
-                .flat_map(|g| g.local.iter().copied())
+                .flat_map(|g| interpolate::rows(&g.local))
                 .collect(),
             frames: resampled.iter().map(|g| g.frame).collect(),
             directions: guides.iter().map(|g| g.direction()).collect(),

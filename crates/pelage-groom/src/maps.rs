@@ -140,7 +140,8 @@ fn blended(blend: Blend, value: [f32; 3], texel: [f32; 3]) -> [f32; 3] {
 pub(crate) struct FieldMaker<'a> {
     pub(crate) images: &'a Images,
     has_uvs: bool,
-    decoded: HashMap<(PathBuf, Channel, bool), Texture>,
+    /// By the image they were made of, which outlives this, and how.
+    decoded: HashMap<(*const ImageMap, Option<(Channel, bool)>), Arc<ImageMap>>,
 }
 
 impl<'a> FieldMaker<'a> {
@@ -200,18 +201,17 @@ impl<'a> FieldMaker<'a> {
         let map = match &property.map {
             None => None,
             Some(used) => {
-                let texture = self.texture(key, used)?.with_images(|image| {
-                    // 8-bit colour maps hold sRGB codes unless the recipe says otherwise.
-                    let srgb = used
-                        .space
-                        .map_or(image.is_eight_bit(), |s| s == MapSpace::Srgb);
-                    if srgb {
-                        Arc::new(image.map_texels(linear_from_srgb))
-                    } else {
-                        image.clone()
-                    }
+                let texture = self.texture(key, used)?;
+                // 8-bit colour maps hold sRGB codes unless the recipe says otherwise.
+                let srgb = |image: &ImageMap| match used.space {
+                    None => image.is_eight_bit(),
+                    Some(space) => space == MapSpace::Srgb,
+                };
+                let decoded = texture.with_images(|image| match srgb(image) {
+                    true => self.decode(image, None),
+                    false => image.clone(),
                 });
-                Some((texture, used.blend))
+                Some((decoded, used.blend))
             }
         };
         Ok(ColorField {
@@ -251,13 +251,27 @@ impl<'a> FieldMaker<'a> {
         let texture = self.texture(key, used)?;
         let channel = used.channel.unwrap_or(Channel::Red);
         let srgb = used.space == Some(MapSpace::Srgb);
-        let at = (used.path.resolved.clone(), channel, srgb);
-        if let Some(done) = self.decoded.get(&at) {
-            return Ok(done.clone().with_wrap(used.wrap));
-        }
-        let decoded = texture.with_images(|image| Arc::new(one_channel(image, channel, srgb)));
-        self.decoded.insert(at, decoded.clone());
-        Ok(decoded)
+        Ok(texture.with_images(|image| match (channel, srgb) {
+            // What a grey image's only channel says of itself: the image as it is.
+            (Channel::Red | Channel::Green | Channel::Blue | Channel::Luminance, false)
+                if image.channels() == 1 =>
+            {
+                image.clone()
+            }
+            _ => self.decode(image, Some((channel, srgb))),
+        }))
+    }
+
+    /// An image with one channel of it, or with its sRGB codes undone. Made once.
+    fn decode(&mut self, image: &Arc<ImageMap>, one: Option<(Channel, bool)>) -> Arc<ImageMap> {
+        let decoded = self.decoded.entry((Arc::as_ptr(image), one));
+        let made = decoded.or_insert_with(|| {
+            Arc::new(match one {
+                Some((channel, srgb)) => one_channel(image, channel, srgb),
+                None => image.map_texels(linear_from_srgb),
+            })
+        });
+        made.clone()
     }
 }
 

@@ -4,6 +4,7 @@ use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::plan::Plan;
 use crate::stages::{cut, frizz, interpolate, kink, scale, thin};
+use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec3;
 use std::ops::Range;
 
@@ -105,6 +106,14 @@ impl Plan {
             end
         }));
         vertices.resize(end as usize, Vec3::ZERO);
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            self.mix_guides(capture, starts, vertices)
+        });
+    }
+
+    #[inline(always)]
+    fn mix_guides(&self, capture: &Capture, starts: &[u32], vertices: &mut [Vec3]) {
         for (i, root) in capture.roots.iter().enumerate() {
             let range = capture.share_starts[i] as usize..capture.share_starts[i + 1] as usize;
             let hair = &mut vertices[starts[i] as usize..starts[i + 1] as usize];

@@ -77,18 +77,10 @@ impl Texture {
     }
 
     /// The same with other images.
-    pub(crate) fn with_images(&self, f: impl Fn(&Arc<ImageMap>) -> Arc<ImageMap>) -> Self {
+    pub(crate) fn with_images(&self, mut f: impl FnMut(&Arc<ImageMap>) -> Arc<ImageMap>) -> Self {
         match self {
             Self::Image(image, wrap) => Self::Image(f(image), *wrap),
             Self::Tiles(tiles) => Self::Tiles(tiles.map(f)),
-        }
-    }
-
-    /// The same with another wrap, if it has one.
-    pub(crate) fn with_wrap(self, wrap: Wrap) -> Self {
-        match self {
-            Self::Image(image, _) => Self::Image(image, wrap),
-            Self::Tiles(tiles) => Self::Tiles(tiles),
         }
     }
 }

@@ -14,7 +14,7 @@ pub fn factor(amount: f32, random: f32, seed: u64, hair: u64) -> f32 {
 }
 
 /// Scales the vertices of a hair about its root.
-#[inline]
+#[inline(always)]
 pub fn scale(factor: f32, hair: &mut [Vec3]) {
     hair.iter_mut().for_each(|v| *v *= factor);
 }
