@@ -17,6 +17,10 @@ use pelage_curves::Vec2;
 use pelage_surface::{RootFrame, SurfacePoint};
 use std::ops::Range;
 
+/// Hairs whose guides are fetched together: their lists (200 bytes each) stay in the
+/// first-level cache.
+const FETCHED: usize = 64;
+
 /// Hairs that were left out, and why.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dropped {
@@ -197,6 +201,19 @@ impl Plan {
         }
     }
 
+    /// Brings the guides near the hairs from `first` on into the cache.
+    fn fetch_guides(&self, capture: &Capture, first: usize) {
+        let hairs = first..capture.roots.len().min(first + FETCHED);
+        for (group, guides) in self.guides.iter().enumerate() {
+            let mine = hairs
+                .clone()
+                .filter(|&i| capture.roots[i].group as usize == group);
+            guides
+                .locator
+                .fetch(mine.map(|i| capture.frames[i].position));
+        }
+    }
+
     /// Finds guides, weights and scale, and drops hairs that have no length.
     fn weigh(&self, capture: &mut Capture) {
         self.read_lengths(capture);
@@ -205,6 +222,9 @@ impl Plan {
         capture.share_starts.push(0);
         let mut kept = 0;
         for i in 0..capture.roots.len() {
+            if i % FETCHED == 0 {
+                self.fetch_guides(capture, i);
+            }
             let root = capture.roots[i];
             let factor = capture.scale[i];
             let cut = capture.cuts.get(i).copied();

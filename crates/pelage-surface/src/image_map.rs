@@ -1,5 +1,6 @@
 //! Images that modulate properties over the surface.
 
+use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec2;
 
 /// Places that are read together.
@@ -201,22 +202,65 @@ impl ImageMap {
     }
 
     /// Where the texels around each of up to [`BATCH`] places begin.
-    #[inline(always)]
     fn corners(&self, uvs: &[Vec2], wrap: Wrap) -> [Corners; BATCH] {
         let mut corners = [Corners::default(); BATCH];
-        for (corners, uv) in corners.iter_mut().zip(uvs) {
-            let around = self.around(uv.x, uv.y, wrap);
-            let at = |i: usize, j: usize| {
-                let row = around.rows[j] as usize * self.width as usize;
-                (row + around.columns[i] as usize) * self.channels as usize
-            };
-            *corners = Corners {
-                starts: [at(0, 0), at(1, 0), at(0, 1), at(1, 1)],
-                across: around.across,
-                down: around.down,
-            };
+        let mut inside = false;
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            inside = self.corners_inside(uvs, &mut corners)
+        });
+        if !inside {
+            for (corners, uv) in corners.iter_mut().zip(uvs) {
+                *corners = self.corners_around(uv, wrap);
+            }
         }
         corners
+    }
+
+    fn corners_around(&self, uv: &Vec2, wrap: Wrap) -> Corners {
+        let around = self.around(uv.x, uv.y, wrap);
+        let at = |i: usize, j: usize| {
+            let row = around.rows[j] as usize * self.width as usize;
+            (row + around.columns[i] as usize) * self.channels as usize
+        };
+        Corners {
+            starts: [at(0, 0), at(1, 0), at(0, 1), at(1, 1)],
+            across: around.across,
+            down: around.down,
+        }
+    }
+
+    /// The same where no place lies at the border or outside, which it tells: then nothing
+    /// wraps, and the arithmetic of many places goes side by side.
+    #[inline(always)]
+    fn corners_inside(&self, uvs: &[Vec2], corners: &mut [Corners; BATCH]) -> bool {
+        let [mut us, mut vs] = [[0.5; BATCH]; 2];
+        for (k, uv) in uvs.iter().enumerate() {
+            (us[k], vs[k]) = (uv.x, uv.y);
+        }
+        let [mut columns, mut rows] = [[0u32; BATCH]; 2];
+        let [mut across, mut down] = [[0.0; BATCH]; 2];
+        let [last_column, last_row] = [self.width, self.height].map(|n| n as f64 - 1.0);
+        let mut inside = true;
+        for k in 0..BATCH {
+            let [x, y] = self.texels_at([us[k], vs[k]]);
+            let [x0, y0] = [x, y].map(f64::floor);
+            // What is no number is not inside either.
+            inside &= (x0 >= 0.0) & (x0 < last_column) & (y0 >= 0.0) & (y0 < last_row);
+            (columns[k], rows[k]) = (x0 as u32, y0 as u32);
+            (across[k], down[k]) = ((x - x0) as f32, (y - y0) as f32);
+        }
+        let channels = self.channels as usize;
+        let row = self.width as usize * channels;
+        for k in 0..BATCH {
+            let first = rows[k] as usize * row + columns[k] as usize * channels;
+            corners[k] = Corners {
+                starts: [first, first + channels, first + row, first + row + channels],
+                across: across[k],
+                down: down[k],
+            };
+        }
+        inside
     }
 
     /// The texel that `(u, v)` falls in, unfiltered: for maps whose colours are names.
