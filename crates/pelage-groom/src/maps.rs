@@ -136,12 +136,15 @@ fn blended(blend: Blend, value: [f32; 3], texel: [f32; 3]) -> [f32; 3] {
     })
 }
 
+/// A channel of an image, and whether its codes are sRGB.
+type OneChannel = (Channel, bool);
+
 /// Turns properties into fields, sharing decoded maps.
 pub(crate) struct FieldMaker<'a> {
     pub(crate) images: &'a Images,
     has_uvs: bool,
     /// By the image they were made of, which outlives this, and how.
-    decoded: HashMap<(*const ImageMap, Option<(Channel, bool)>), Arc<ImageMap>>,
+    decoded: HashMap<(*const ImageMap, Option<OneChannel>), Arc<ImageMap>>,
 }
 
 impl<'a> FieldMaker<'a> {
@@ -263,7 +266,7 @@ impl<'a> FieldMaker<'a> {
     }
 
     /// An image with one channel of it, or with its sRGB codes undone. Made once.
-    fn decode(&mut self, image: &Arc<ImageMap>, one: Option<(Channel, bool)>) -> Arc<ImageMap> {
+    fn decode(&mut self, image: &Arc<ImageMap>, one: Option<OneChannel>) -> Arc<ImageMap> {
         let decoded = self.decoded.entry((Arc::as_ptr(image), one));
         let made = decoded.or_insert_with(|| {
             Arc::new(match one {

@@ -437,6 +437,38 @@ mod tests {
     }
 
     #[test]
+    fn many_at_once_are_those_one_by_one() {
+        let image = |channels| {
+            let texels = (0..35 * channels).map(|i| (i * 37 % 19) as f32).collect();
+            ImageMap::new(7, 5, channels, texels, false).unwrap()
+        };
+        let coordinate = |i: u32, step: u32| (i * step % 211) as f32 / 210.0;
+        let inside = |i| Vec2::new(coordinate(i, 3), coordinate(i, 50)) * 0.8 + 0.1;
+        // More than a batch whose places are all inside, then some at borders and beyond.
+        let mut uvs: Vec<Vec2> = (0..150).map(inside).collect();
+        uvs.extend([0.0, 1.0, 1e-9, -0.3, 7.2, f32::NAN, f32::INFINITY, -1e30].map(Vec2::splat));
+        for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
+            for channels in 1..=4 {
+                let image = image(channels);
+                let mut values = vec![0.0; uvs.len()];
+                image.sample_all(&uvs, channels - 1, wrap, &mut values);
+                let mut colors = vec![[0.0; 3]; uvs.len()];
+                image.sample_rgb_all(&uvs, wrap, &mut colors);
+                let bits = |color: [f32; 3]| color.map(f32::to_bits);
+                for (uv, (value, color)) in uvs.iter().zip(values.iter().zip(colors)) {
+                    let alone = image.sample(uv.x, uv.y, channels - 1, wrap);
+                    assert_eq!(value.to_bits(), alone.to_bits(), "{uv}");
+                    assert_eq!(
+                        bits(color),
+                        bits(image.sample_rgb(uv.x, uv.y, wrap)),
+                        "{uv}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
     fn coordinates_that_are_no_numbers_do_not_panic() {
         for bad in [f32::NAN, f32::INFINITY, -1e30] {
             for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
