@@ -25,10 +25,8 @@ pub fn kink(
     values.resize(local.len(), Vec3::ZERO);
     for (i, (hair, frame)) in hairs.iter().zip(frames).enumerate() {
         let range = range(i);
-        // Only once a hair: nothing tells the compiler that writing places changes none.
-        let (frequency, frame) = (hair.frequency, *frame);
         for (place, vertex) in places[range.clone()].iter_mut().zip(&local[range]) {
-            *place = frequency * (frame.position + frame.vector(*vertex));
+            *place = hair.frequency * (frame.position + frame.vector(*vertex));
         }
     }
     noise_vectors(fields.seed, places, values);
