@@ -3,11 +3,12 @@
 //! Depends on the plan and the hairs' indices alone (architecture.md, laws 1 and 4).
 
 use crate::clock::{Clock, Stage};
-use crate::color::ColorMix;
+use crate::columns::Columns;
 use crate::locator::Near;
+use crate::looks::LookScratch;
 use crate::neighbors::Neighbors;
 use crate::noise_fields::HairNoise;
-use crate::plan::{Fields, Plan};
+use crate::plan::Plan;
 use crate::stages::clump::Member;
 use crate::stages::flyaway::Stray;
 use crate::stages::frizz::Frizz;
@@ -16,8 +17,13 @@ use crate::stages::roots::{Root, root};
 use crate::stages::scale;
 use crate::stages::strand::{Bundle, Fiber};
 use crate::stages::weights::{Share, turn};
+use pelage_curves::Vec2;
 use pelage_surface::{RootFrame, SurfacePoint};
 use std::ops::Range;
+
+/// Hairs whose guides are fetched together: their lists (200 bytes each) stay in the
+/// first-level cache.
+const FETCHED: usize = 64;
 
 /// Hairs that were left out, and why.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,12 +75,15 @@ pub struct Capture {
     pub(crate) fibers: Vec<Fiber>,
     /// Empty where no hair strays.
     pub(crate) strays: Vec<Stray>,
-    /// One for each level of clumps, hair by hair.
+    /// One for each hair, level of clumps by level.
     pub(crate) members: Vec<Member>,
     pub(crate) near: Vec<Near>,
     dropped: Dropped,
     hairs: Vec<u64>,
     places: Vec<SurfacePoint>,
+    pub(crate) uvs: Vec<Vec2>,
+    pub(crate) columns: Columns,
+    look_scratch: LookScratch,
     neighbors: Neighbors,
 }
 
@@ -181,72 +190,122 @@ impl Plan {
         let started = clock.stop(Stage::Roots, started);
         self.weigh(kind, capture);
         let started = clock.stop(Stage::Weights, started);
-        let Fields { frizz, kink, .. } = &self.fields;
-        capture.frizz.clear();
-        if let Some(fields) = frizz {
-            let hairs = capture.roots.iter().map(|root| fields.at(root));
-            capture.frizz.extend(hairs);
-        }
-        capture.kinks.clear();
-        if let Some(fields) = kink {
-            let hairs = capture.roots.iter().map(|root| fields.at(root.uv));
-            capture.kinks.extend(hairs);
-        }
+        self.read_bends(capture);
         clock.stop(Stage::Maps, started);
+    }
+
+    /// Reads the properties that bend hairs.
+    fn read_bends(&self, capture: &mut Capture) {
+        let Capture {
+            roots,
+            uvs,
+            columns,
+            frizz,
+            kinks,
+            ..
+        } = capture;
+        list_uvs(roots, uvs);
+        frizz.clear();
+        if let Some(fields) = &self.fields.frizz {
+            let hairs = roots.iter().zip(columns.read(fields.fields(), uvs));
+            frizz.extend(hairs.map(|(root, values)| fields.hair(root, values)));
+        }
+        kinks.clear();
+        if let Some(fields) = &self.fields.kink {
+            kinks.extend(columns.read(fields.fields(), uvs).map(HairNoise::new));
+        }
     }
 
     /// What the hairs in the middles of clumps lack: straying, fibres, looks and clumps of
     /// all levels.
     fn capture_hairs(&self, capture: &mut Capture, clock: &mut Clock) {
         let started = clock.start();
-        let Fields {
-            flyaway, strand, ..
-        } = &self.fields;
-        capture.strays.clear();
-        if let Some(fields) = flyaway {
-            let stray = |root: &Root| fields.at(root.uv, self.seed, root.hair);
-            capture.strays.extend(capture.roots.iter().map(stray));
+        let Capture {
+            roots,
+            uvs,
+            columns,
+            strays,
+            bundles,
+            fibers,
+            looks,
+            look_scratch,
+            ..
+        } = capture;
+        strays.clear();
+        if let Some(fields) = &self.fields.flyaway {
+            let hairs = roots.iter().zip(columns.read(fields.fields(), uvs));
+            strays.extend(hairs.map(|(root, values)| Stray::new(values, self.seed, root.hair)));
         }
-        capture.bundles.clear();
-        capture.fibers.clear();
-        if let Some(fields) = strand {
-            let hairs = capture.roots.iter().map(|root| fields.at(root.uv));
-            capture.bundles.extend(hairs);
-            let bundles = capture.roots.iter().zip(&capture.bundles);
-            let fibers = bundles.flat_map(|(root, bundle)| {
-                (0..fields.fibers).map(|fiber| bundle.fiber(self.seed, root.hair, fiber))
-            });
-            capture.fibers.extend(fibers);
+        bundles.clear();
+        fibers.clear();
+        if let Some(fields) = &self.fields.strand {
+            bundles.extend(columns.read(fields.fields(), uvs).map(Bundle::new));
+            for (root, bundle) in roots.iter().zip(&*bundles) {
+                let all = 0..fields.fibers;
+                fibers.extend(all.map(|fiber| bundle.fiber(self.seed, root.hair, fiber)));
+            }
         }
-        capture.looks.clear();
-        capture
-            .looks
-            .extend(capture.roots.iter().map(|root| self.look(root)));
+        looks.clear();
+        let fields = &self.fields;
+        fields.read_looks(roots, uvs, self.seed, look_scratch, looks);
         let started = clock.stop(Stage::Maps, started);
         self.clump(capture);
         clock.stop(Stage::Clump, started);
     }
 
+    /// Reads how long hairs are compared with their guides, and what part of them stays.
+    fn read_lengths(&self, kind: Kind, capture: &mut Capture) {
+        let Capture {
+            roots,
+            uvs,
+            columns,
+            scale,
+            cuts,
+            ..
+        } = capture;
+        list_uvs(roots, uvs);
+        let f = &self.fields;
+        let factors = columns.read([&f.scale, &f.scale_random], uvs).zip(&*roots);
+        scale.clear();
+        scale.extend(factors.map(|([amount, random], root)| match kind {
+            Kind::Hairs => scale::factor(amount, random, self.seed, root.hair),
+            Kind::Middles => amount.max(0.0),
+        }));
+        cuts.clear();
+        if let (Kind::Hairs, Some(field)) = (kind, &f.cut) {
+            field.read(uvs, cuts);
+            cuts.iter_mut().for_each(|cut| *cut = cut.clamp(0.0, 1.0));
+        }
+    }
+
+    /// Brings the guides near the hairs from `first` on into the cache.
+    fn fetch_guides(&self, capture: &Capture, first: usize) {
+        let hairs = first..capture.roots.len().min(first + FETCHED);
+        for (group, guides) in self.guides.iter().enumerate() {
+            let mine = hairs
+                .clone()
+                .filter(|&i| capture.roots[i].group as usize == group);
+            guides
+                .locator
+                .fetch(mine.map(|i| capture.frames[i].position));
+        }
+    }
+
     /// Finds guides, weights and scale, and drops hairs that have no length.
     fn weigh(&self, kind: Kind, capture: &mut Capture) {
-        capture.scale.clear();
+        self.read_lengths(kind, capture);
         capture.lengths.clear();
-        capture.cuts.clear();
         capture.shares.clear();
         capture.share_starts.clear();
         capture.share_starts.push(0);
         let mut kept = 0;
         for i in 0..capture.roots.len() {
+            if i % FETCHED == 0 {
+                self.fetch_guides(capture, i);
+            }
             let root = capture.roots[i];
-            let f = &self.fields;
-            let amount = scale::amount(&f.scale, root.uv);
-            let (factor, cut) = match kind {
-                Kind::Middles => (amount, None),
-                Kind::Hairs => (
-                    amount * scale::random(&f.scale_random, root.uv, self.seed, root.hair),
-                    f.cut.as_ref().map(|cut| cut.at(root.uv).clamp(0.0, 1.0)),
-                ),
-            };
+            let factor = capture.scale[i];
+            let cut = capture.cuts.get(i).copied();
             if cut == Some(0.0) {
                 capture.dropped.cut += 1;
                 continue;
@@ -285,24 +344,23 @@ impl Plan {
             }
             capture.roots[kept] = root;
             capture.frames[kept] = frame;
+            capture.scale[kept] = factor;
+            if let Some(cut) = cut {
+                capture.cuts[kept] = cut;
+            }
             kept += 1;
-            capture.scale.push(factor);
             capture.lengths.push(length * factor);
-            capture.cuts.extend(cut);
             capture.share_starts.push(capture.shares.len() as u32);
         }
         capture.roots.truncate(kept);
         capture.frames.truncate(kept);
+        capture.scale.truncate(kept);
+        capture.cuts.truncate(kept);
     }
+}
 
-    fn look(&self, root: &Root) -> Look {
-        let f = &self.fields;
-        let common = [0, 1].map(|k| f.color[k].at(root.uv));
-        let [from, to] = f.tint.apply(common, root.uv, self.seed, root.hair);
-        Look {
-            color: ColorMix::new(f.color_space, from, to),
-            opacity: [0, 1].map(|k| f.opacity[k].at(root.uv).clamp(0.0, 1.0)),
-            width: [0, 1].map(|k| f.width[k].at(root.uv).max(0.0)),
-        }
-    }
+/// Writes the texture coordinates of `roots` to `uvs`, which is emptied first.
+fn list_uvs(roots: &[Root], uvs: &mut Vec<Vec2>) {
+    uvs.clear();
+    uvs.extend(roots.iter().map(|root| root.uv));
 }

@@ -85,23 +85,29 @@ impl Level {
         }
     }
 
-    /// The place of hair number `i` of `capture` in its clump.
-    fn member(&self, plan: &Plan, capture: &Capture, i: usize, near: &mut Vec<Near>) -> Member {
-        let (root, frame) = (&capture.roots[i], &capture.frames[i]);
-        let Some(clump) = self.clump(root, frame, near) else {
+    /// The place of hair number `i` of `capture` in its clump; `values` are those of the
+    /// properties at its root.
+    fn member(
+        &self,
+        plan: &Plan,
+        capture: &Capture,
+        i: usize,
+        values: [f32; 3],
+        near: &mut Vec<Near>,
+    ) -> Member {
+        let Some(clump) = self.clump(&capture.roots[i], &capture.frames[i], near) else {
             return Member::NONE;
         };
-        let random = self.random.at(root.uv).clamp(0.0, 1.0);
+        let [root, tip, random] = values.map(|value| value.clamp(0.0, 1.0));
         let less = random * uniform(plan.seed, clump as u64, Channel::Clump);
         let part = (1.0 - less) * capture.clumped(i);
         let segment = |capture: &Capture, i: usize| {
             let group = capture.roots[i].group as usize;
             capture.lengths[i] / plan.guides[group].segments as f32
         };
-        let drawn = |field: &ScalarField| field.at(root.uv).clamp(0.0, 1.0) * part;
         Member {
             clump: Some(clump),
-            drawn: self.drawn.each_ref().map(drawn),
+            drawn: [root, tip].map(|drawn| drawn * part),
             pace: segment(capture, i) / segment(&self.middles, clump as usize),
         }
     }
@@ -131,17 +137,20 @@ impl Plan {
         Ok(())
     }
 
-    /// Finds the clumps of the hairs of `capture`, level by level for each hair.
+    /// Finds the clumps of the hairs of `capture`, level after level.
     pub(crate) fn clump(&self, capture: &mut Capture) {
         let mut members = std::mem::take(&mut capture.members);
-        members.clear();
         let mut near = std::mem::take(&mut capture.near);
-        for i in 0..capture.len() {
-            for level in &self.clumps {
-                members.push(level.member(self, capture, i, &mut near));
-            }
+        let mut columns = std::mem::take(&mut capture.columns);
+        members.clear();
+        for level in &self.clumps {
+            let [root, tip] = &level.drawn;
+            let values = columns.read([root, tip, &level.random], &capture.uvs);
+            let hairs = values.enumerate();
+            members
+                .extend(hairs.map(|(i, values)| level.member(self, capture, i, values, &mut near)));
         }
-        (capture.members, capture.near) = (members, near);
+        (capture.members, capture.near, capture.columns) = (members, near, columns);
     }
 
     /// Draws the hairs of `capture`, on the pose of `middles`, to the middles of their
@@ -153,11 +162,12 @@ impl Plan {
         before: &mut Vec<Vec3>,
         hairs: &mut Curves,
     ) {
-        for i in 0..capture.len() {
-            let members = &capture.members[i * middles.len()..][..middles.len()];
-            let hair = hairs.get_mut(i);
-            for ((member, level), middles) in members.iter().zip(&self.clumps).zip(middles) {
+        let levels = self.clumps.iter().zip(middles).enumerate();
+        for (number, (level, middles)) in levels {
+            let members = &capture.members[number * capture.len()..][..capture.len()];
+            for (i, member) in members.iter().enumerate() {
                 let Some(clump) = member.clump else { continue };
+                let hair = hairs.get_mut(i);
                 before.clear();
                 before.extend_from_slice(hair);
                 clump::draw(member, middles.get(clump as usize), hair);

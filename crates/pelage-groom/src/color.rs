@@ -55,38 +55,61 @@ impl ColorMix {
         }
     }
 
-    /// The linear RGB colour at `t`, root 0, tip 1.
-    #[inline]
-    pub fn at(&self, t: f32) -> [f32; 3] {
-        let mixed: [f32; 3] = std::array::from_fn(|k| self.root[k] + self.step[k] * t);
+    /// The linear RGB colours at each of `ts`, root 0, tip 1: all reds, all greens, all
+    /// blues.
+    #[inline(always)]
+    pub fn at<const N: usize>(&self, ts: &[f32; N]) -> [[f32; N]; 3] {
+        let mut colors = [[0.0; N]; 3];
+        let mixed =
+            |t: f32| -> [f32; 3] { std::array::from_fn(|k| self.root[k] + self.step[k] * t) };
         match self.space {
-            ColorSpace::Hsv => rgb_from_hsv(mixed),
-            ColorSpace::Oklab => rgb_from_oklab(mixed).map(|c| c.clamp(0.0, 1.0)),
-            ColorSpace::Rgb => mixed,
+            ColorSpace::Hsv => fill(&mut colors, ts, |t| rgb_from_hsv(mixed(t))),
+            ColorSpace::Oklab => fill(&mut colors, ts, |t| {
+                rgb_from_oklab(mixed(t)).map(|c| c.clamp(0.0, 1.0))
+            }),
+            ColorSpace::Rgb => fill(&mut colors, ts, mixed),
         }
+        colors
     }
 }
 
-/// Hue in degrees 0..360, saturation and value in 0..=1.
+/// Writes `color` at each of `ts`, which is done for many at once.
+#[inline(always)]
+fn fill<const N: usize>(
+    [reds, greens, blues]: &mut [[f32; N]; 3],
+    ts: &[f32; N],
+    color: impl Fn(f32) -> [f32; 3],
+) {
+    for k in 0..N {
+        [reds[k], greens[k], blues[k]] = color(ts[k]);
+    }
+}
+
+/// Hue in degrees 0..360, saturation and value in 0..=1. Everything is computed and the
+/// right one chosen, so that many colours go side by side.
+#[inline(always)]
 pub fn hsv_from_rgb([r, g, b]: [f32; 3]) -> [f32; 3] {
     let value = r.max(g).max(b);
     let chroma = value - r.min(g).min(b);
-    if chroma <= 0.0 {
-        return [0.0, 0.0, value];
-    }
-    let sector = if value == r {
-        (g - b) / chroma
+    let grey = chroma <= 0.0;
+    let (apart, of) = if value == r {
+        (g - b, 0.0)
     } else if value == g {
-        2.0 + (b - r) / chroma
+        (b - r, 2.0)
     } else {
-        4.0 + (r - g) / chroma
+        (r - g, 4.0)
     };
+    let sector = of + apart / chroma;
     let hue = 60.0 * if sector < 0.0 { sector + 6.0 } else { sector };
-    [hue, chroma / value, value]
+    if grey {
+        [0.0, 0.0, value]
+    } else {
+        [hue, chroma / value, value]
+    }
 }
 
 /// The inverse of [`hsv_from_rgb`]; any hue, taken modulo 360.
-#[inline]
+#[inline(always)]
 pub fn rgb_from_hsv([hue, saturation, value]: [f32; 3]) -> [f32; 3] {
     let sector = hue * (1.0 / 60.0);
     let part = |n: f32| {
@@ -110,7 +133,7 @@ pub fn oklab_from_rgb([r, g, b]: [f32; 3]) -> [f32; 3] {
 }
 
 /// The inverse of [`oklab_from_rgb`].
-#[inline]
+#[inline(always)]
 pub fn rgb_from_oklab([l, a, b]: [f32; 3]) -> [f32; 3] {
     let cube = |x: f32| x * x * x;
     let p = cube(l + 0.396_337_78 * a + 0.215_803_76 * b);
@@ -145,7 +168,9 @@ mod tests {
         // Magenta-red (330°) to orange (30°): the middle is red, not cyan.
         let from = rgb_from_hsv([330.0, 1.0, 1.0]);
         let to = rgb_from_hsv([30.0, 1.0, 1.0]);
-        let middle = ColorMix::new(ColorSpace::Hsv, from, to).at(0.5);
+        let middle = ColorMix::new(ColorSpace::Hsv, from, to)
+            .at(&[0.5])
+            .map(|part| part[0]);
         assert!(near(middle, [1.0, 0.0, 0.0], 1e-5), "{middle:?}");
     }
 

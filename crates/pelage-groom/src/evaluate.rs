@@ -9,6 +9,7 @@ use crate::plan::Plan;
 use crate::pose::Posed;
 use crate::shape::Shapes;
 use crate::stages::{frames, look};
+use fearless_simd::{Level, dispatch};
 use pelage_curves::FrameScratch;
 use pelage_strands::{StrandBuffer, StrandMeta};
 use pelage_surface::RootFrame;
@@ -46,7 +47,10 @@ impl Plan {
         clock.stop(Stage::World, started);
         self.shape(capture, frames, &moment, shapes, clock);
         let started = clock.start();
-        self.lay_out(capture, shapes, hairs, out);
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            self.lay_out(capture, shapes, hairs, out)
+        });
         let started = clock.stop(Stage::Look, started);
         if self.normals {
             let points = bytemuck::cast_slice(&out.points);
@@ -60,6 +64,7 @@ impl Plan {
 
     /// Writes everything but normals, which get their length; and the number of each
     /// curve's hair in the chunk to `hairs`.
+    #[inline(always)]
     fn lay_out(
         &self,
         capture: &Capture,
@@ -111,6 +116,7 @@ impl Plan {
 
     /// Writes the looks of the last curve of `out`, whose vertices had `numbers` in hair
     /// number `hair` of the chunk.
+    #[inline(always)]
     fn color(&self, capture: &Capture, hair: usize, numbers: &[u32], out: &mut StrandBuffer) {
         let range = out.vertices(out.len() - 1);
         look::along(

@@ -2,14 +2,15 @@
 
 use crate::recipe::InterpolationSpace;
 use crate::stages::frenet::{self, Corner};
+use crate::stages::interpolate::{Row, rows};
 use pelage_curves::Vec3;
 use rayon::prelude::*;
 
 /// Guides of one number of segments as arrays.
 #[derive(Clone, Debug)]
 pub(crate) struct GuideShapes {
-    /// `segments + 1` local vertices a guide, one guide after the other.
-    pub vertices: Vec<Vec3>,
+    /// `segments + 1` local vertices a guide, in rows, one guide after the other.
+    pub vertices: Vec<Row>,
     /// `segments` corners a guide, one guide after the other; `None` where hairs are mixed
     /// by their vertices.
     pub corners: Option<Vec<Corner>>,
@@ -23,7 +24,7 @@ impl GuideShapes {
             guides.collect::<Vec<Vec<Corner>>>().concat()
         };
         Self {
-            vertices: guides.concat(),
+            vertices: guides.iter().flat_map(|guide| rows(guide)).collect(),
             corners: match space {
                 InterpolationSpace::Vertices => None,
                 InterpolationSpace::Frenet => Some(corners()),

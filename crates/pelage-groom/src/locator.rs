@@ -17,6 +17,12 @@ use std::num::NonZeroUsize;
 /// memory of their own (4 bytes a cell).
 const MAX_CELLS: f64 = (1 << 22) as f64;
 
+/// Candidates in a line of the cache.
+const CANDIDATES_A_LINE: u32 = 4;
+
+/// Lines of a list that are [fetched](Locator::fetch): a dozen candidates and some.
+const FETCHED: u32 = 4;
+
 /// A guide near a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Near {
@@ -100,6 +106,23 @@ impl Locator {
     /// How many guides a query gives.
     pub fn nearest(&self) -> usize {
         self.nearest.min(self.all.len())
+    }
+
+    /// Reads the lists of all `points`, whose nearest guides will be asked for next. Lists
+    /// lie far apart and a query is full of decisions, so that memory would be waited for
+    /// list by list; here many are waited for at once.
+    pub(crate) fn fetch(&self, points: impl Iterator<Item = Vec3>) {
+        let mut read = 0;
+        for point in points {
+            let cell = self.cell(point);
+            let (start, end) = (self.starts[cell], self.starts[cell + 1]);
+            // A candidate of each of the first lines.
+            for line in 0..FETCHED {
+                let at = (start + line * CANDIDATES_A_LINE).min(end) as usize;
+                read ^= self.candidates.get(at).map_or(0, |c| c.guide);
+            }
+        }
+        std::hint::black_box(read);
     }
 
     /// Puts the guides nearest to `point` into `found`, which is emptied first; nearest

@@ -42,6 +42,18 @@ impl ScalarField {
         }
     }
 
+    /// Writes the values at all of `uvs` to `values`, which is emptied first. One property
+    /// for many hairs takes less time than many properties for one: see
+    /// [`ImageMap::sample_all`].
+    pub(crate) fn read(&self, uvs: &[Vec2], values: &mut Vec<f32>) {
+        values.clear();
+        values.resize(uvs.len(), self.value);
+        if let Some(map) = &self.map {
+            map.sample_all(uvs, 0, values);
+            values.iter_mut().for_each(|v| *v *= self.value);
+        }
+    }
+
     /// Whether the value is 0 everywhere because the recipe says 0.
     pub(crate) fn is_zero(&self) -> bool {
         self.value == 0.0
@@ -104,22 +116,41 @@ impl ColorField {
         let mut color = self.value;
         if let Some((map, blend)) = &self.map {
             let texel = map.sample_rgb(uv).unwrap_or_default();
-            for (c, t) in color.iter_mut().zip(texel) {
-                match blend {
-                    Blend::Add => *c += t,
-                    Blend::Multiply => *c *= t,
-                }
-            }
+            color = blended(*blend, color, texel);
         }
         color.map(|c| c.clamp(0.0, 1.0))
     }
+
+    /// Writes the colours at all of `uvs` to `colors`, which is emptied first.
+    pub(crate) fn read(&self, uvs: &[Vec2], colors: &mut Vec<[f32; 3]>) {
+        colors.clear();
+        colors.resize(uvs.len(), self.value.map(|c| c.clamp(0.0, 1.0)));
+        if let Some((map, blend)) = &self.map {
+            map.sample_rgb_all(uvs, colors);
+            for color in colors {
+                *color = blended(*blend, self.value, *color).map(|c| c.clamp(0.0, 1.0));
+            }
+        }
+    }
 }
+
+#[inline(always)]
+fn blended(blend: Blend, value: [f32; 3], texel: [f32; 3]) -> [f32; 3] {
+    std::array::from_fn(|k| match blend {
+        Blend::Add => value[k] + texel[k],
+        Blend::Multiply => value[k] * texel[k],
+    })
+}
+
+/// A channel of an image, and whether its codes are sRGB.
+type OneChannel = (Channel, bool);
 
 /// Turns properties into fields, sharing decoded maps.
 pub(crate) struct FieldMaker<'a> {
     pub(crate) images: &'a Images,
     has_uvs: bool,
-    decoded: HashMap<(PathBuf, Channel, bool), Texture>,
+    /// By the image they were made of, which outlives this, and how.
+    decoded: HashMap<(*const ImageMap, Option<OneChannel>), Arc<ImageMap>>,
 }
 
 impl<'a> FieldMaker<'a> {
@@ -179,18 +210,17 @@ impl<'a> FieldMaker<'a> {
         let map = match &property.map {
             None => None,
             Some(used) => {
-                let texture = self.texture(key, used)?.with_images(|image| {
-                    // 8-bit colour maps hold sRGB codes unless the recipe says otherwise.
-                    let srgb = used
-                        .space
-                        .map_or(image.is_eight_bit(), |s| s == MapSpace::Srgb);
-                    if srgb {
-                        Arc::new(image.map_texels(linear_from_srgb))
-                    } else {
-                        image.clone()
-                    }
+                let texture = self.texture(key, used)?;
+                // 8-bit colour maps hold sRGB codes unless the recipe says otherwise.
+                let srgb = |image: &ImageMap| match used.space {
+                    None => image.is_eight_bit(),
+                    Some(space) => space == MapSpace::Srgb,
+                };
+                let decoded = texture.with_images(|image| match srgb(image) {
+                    true => self.decode(image, None),
+                    false => image.clone(),
                 });
-                Some((texture, used.blend))
+                Some((decoded, used.blend))
             }
         };
         Ok(ColorField {
@@ -230,13 +260,27 @@ impl<'a> FieldMaker<'a> {
         let texture = self.texture(key, used)?;
         let channel = used.channel.unwrap_or(Channel::Red);
         let srgb = used.space == Some(MapSpace::Srgb);
-        let at = (used.path.resolved.clone(), channel, srgb);
-        if let Some(done) = self.decoded.get(&at) {
-            return Ok(done.clone().with_wrap(used.wrap));
-        }
-        let decoded = texture.with_images(|image| Arc::new(one_channel(image, channel, srgb)));
-        self.decoded.insert(at, decoded.clone());
-        Ok(decoded)
+        Ok(texture.with_images(|image| match (channel, srgb) {
+            // What a grey image's only channel says of itself: the image as it is.
+            (Channel::Red | Channel::Green | Channel::Blue | Channel::Luminance, false)
+                if image.channels() == 1 =>
+            {
+                image.clone()
+            }
+            _ => self.decode(image, Some((channel, srgb))),
+        }))
+    }
+
+    /// An image with one channel of it, or with its sRGB codes undone. Made once.
+    fn decode(&mut self, image: &Arc<ImageMap>, one: Option<OneChannel>) -> Arc<ImageMap> {
+        let decoded = self.decoded.entry((Arc::as_ptr(image), one));
+        let made = decoded.or_insert_with(|| {
+            Arc::new(match one {
+                Some((channel, srgb)) => one_channel(image, channel, srgb),
+                None => image.map_texels(linear_from_srgb),
+            })
+        });
+        made.clone()
     }
 }
 

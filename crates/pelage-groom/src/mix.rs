@@ -5,6 +5,7 @@ use crate::curves::Curves;
 use crate::guide_shapes::GuideShapes;
 use crate::plan::Plan;
 use crate::stages::{frenet, interpolate, scale};
+use fearless_simd::{Level, dispatch};
 
 impl Plan {
     /// Mixes the hairs of `capture` of their guides: of those at rest unless `posed` has
@@ -22,10 +23,10 @@ impl Plan {
             None => &self.guides[group as usize].shapes,
         };
         hairs.lay_out(capture.roots.iter().map(|root| segments(root.group) + 1));
-        for (i, root) in capture.roots.iter().enumerate() {
-            let guides = &shapes(root.group).vertices;
-            interpolate::interpolate(guides, capture.shares(i), hairs.get_mut(i));
-        }
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            mix_vertices(capture, shapes, hairs)
+        });
         if self
             .guides
             .iter()
@@ -43,5 +44,18 @@ impl Plan {
         for (i, &factor) in capture.scale.iter().enumerate() {
             scale::scale(factor, hairs.get_mut(i));
         }
+    }
+}
+
+/// Hairs as the weighted means of the vertices of their guides.
+#[inline(always)]
+fn mix_vertices<'a>(
+    capture: &Capture,
+    shapes: impl Fn(u32) -> &'a GuideShapes,
+    hairs: &mut Curves,
+) {
+    for (i, root) in capture.roots.iter().enumerate() {
+        let guides = &shapes(root.group).vertices;
+        interpolate::interpolate(guides, capture.shares(i), hairs.get_mut(i));
     }
 }

@@ -5,7 +5,7 @@ use crate::PlanError;
 use crate::maps::{FieldMaker, ScalarField};
 use crate::random::{Channel, noise_seed};
 use crate::recipe::ScalarProperty;
-use pelage_curves::{Vec2, Vec3};
+use pelage_curves::Vec3;
 
 /// A noise over the surface.
 #[derive(Clone, Debug)]
@@ -47,13 +47,21 @@ impl NoiseFields {
         Ok(acts.then_some(fields))
     }
 
-    /// The noise of a hair with its root at `uv`.
-    pub(crate) fn at(&self, uv: Vec2) -> HairNoise {
-        let at = |field: &ScalarField| field.at(uv).max(0.0);
-        HairNoise {
-            frequency: Vec3::from(self.frequency.each_ref().map(at)),
-            root: at(&self.root),
-            tip: at(&self.tip),
+    /// Its properties, in the order in which [`HairNoise::new`] takes their values.
+    pub(crate) fn fields(&self) -> [&ScalarField; 5] {
+        let [x, y, z] = &self.frequency;
+        [x, y, z, &self.root, &self.tip]
+    }
+}
+
+impl HairNoise {
+    /// The noise of a hair from what its properties are at its root.
+    pub(crate) fn new(values: [f32; 5]) -> Self {
+        let [x, y, z, root, tip] = values.map(|value| value.max(0.0));
+        Self {
+            frequency: Vec3::new(x, y, z),
+            root,
+            tip,
         }
     }
 }

@@ -48,7 +48,7 @@ pub enum Channel {
 /// assert_eq!(uniform(7, 42, Channel::Scale), uniform(7, 42, Channel::Scale));
 /// assert_ne!(uniform(7, 42, Channel::Scale), uniform(7, 43, Channel::Scale));
 /// ```
-#[inline]
+#[inline(always)]
 pub fn uniform(seed: u64, hair: u64, channel: Channel) -> f32 {
     let word = word(seed, hair, channel);
     (word >> 40) as f32 * (1.0 / (1u32 << 24) as f32)

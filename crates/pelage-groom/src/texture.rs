@@ -32,6 +32,32 @@ impl Texture {
         }
     }
 
+    /// Writes the bilinear values of `channel` at all of `uvs` to `values`, which has the
+    /// same length; 0 where a set has no tile.
+    pub(crate) fn sample_all(&self, uvs: &[Vec2], channel: u32, values: &mut [f32]) {
+        match self {
+            Self::Image(image, wrap) => image.sample_all(uvs, channel, *wrap, values),
+            Self::Tiles(tiles) => {
+                for (value, uv) in values.iter_mut().zip(uvs) {
+                    *value = tiles.sample(uv.x, uv.y, channel).unwrap_or(0.0);
+                }
+            }
+        }
+    }
+
+    /// Writes the bilinear colours at all of `uvs` to `colors`, which has the same length;
+    /// black where a set has no tile.
+    pub(crate) fn sample_rgb_all(&self, uvs: &[Vec2], colors: &mut [[f32; 3]]) {
+        match self {
+            Self::Image(image, wrap) => image.sample_rgb_all(uvs, *wrap, colors),
+            Self::Tiles(tiles) => {
+                for (color, uv) in colors.iter_mut().zip(uvs) {
+                    *color = tiles.sample_rgb(uv.x, uv.y).unwrap_or_default();
+                }
+            }
+        }
+    }
+
     /// Width and height of a texel at `uv`, in texture space; `None` where a set has no
     /// tile.
     pub fn texel(&self, uv: Vec2) -> Option<Vec2> {
@@ -51,18 +77,10 @@ impl Texture {
     }
 
     /// The same with other images.
-    pub(crate) fn with_images(&self, f: impl Fn(&Arc<ImageMap>) -> Arc<ImageMap>) -> Self {
+    pub(crate) fn with_images(&self, mut f: impl FnMut(&Arc<ImageMap>) -> Arc<ImageMap>) -> Self {
         match self {
             Self::Image(image, wrap) => Self::Image(f(image), *wrap),
             Self::Tiles(tiles) => Self::Tiles(tiles.map(f)),
-        }
-    }
-
-    /// The same with another wrap, if it has one.
-    pub(crate) fn with_wrap(self, wrap: Wrap) -> Self {
-        match self {
-            Self::Image(image, _) => Self::Image(image, wrap),
-            Self::Tiles(tiles) => Self::Tiles(tiles),
         }
     }
 }

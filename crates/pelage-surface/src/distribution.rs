@@ -175,32 +175,68 @@ impl Tables<'_> {
     /// the width is at least 1.
     #[inline(always)]
     pub(crate) fn locate(self, fraction: u64) -> (usize, [i32; 2]) {
-        let (index, (start, width)) = self.share_around(fraction);
-        let width = width.max(1);
-        let cut = 33u32.saturating_sub(width.leading_zeros());
-        let inside = (fraction - start) >> cut;
-        (index, [inside as i32, (width >> cut) as i32])
+        let (index, share) = self.share_around(fraction);
+        (index, inside(fraction, share))
+    }
+
+    /// [`locate`](Self::locate) for many. Nothing is decided before all tables are read: a
+    /// decision guessed wrong throws away what was begun to be read after it.
+    #[inline(always)]
+    pub(crate) fn locate_all<const N: usize>(
+        self,
+        fractions: &[u64; N],
+        indices: &mut [usize; N],
+        rests: &mut [[i32; 2]; N],
+    ) {
+        let mut near = [[0; 4]; N];
+        for k in 0..N {
+            indices[k] = self.grid[(fractions[k] >> self.shift) as usize] as usize;
+        }
+        for k in 0..N {
+            near[k].copy_from_slice(&self.starts[indices[k]..indices[k] + 4]);
+        }
+        for k in 0..N {
+            let (index, share) = self.share_among(fractions[k], indices[k], near[k]);
+            (indices[k], rests[k]) = (index, inside(fractions[k], share));
+        }
     }
 
     /// The element in whose share `fraction` falls; where its share begins, and its width,
     /// both of 2^64. The last fraction of all, 2^64 - 1, may be in no share.
+    #[inline(always)]
+    pub(crate) fn share_around(self, fraction: u64) -> (usize, (u64, u64)) {
+        let first = self.grid[(fraction >> self.shift) as usize] as usize;
+        let mut near = [0; 4];
+        near.copy_from_slice(&self.starts[first..first + 4]);
+        self.share_among(fraction, first, near)
+    }
+
+    /// The same where the cell of `fraction` begins in element `first`, and the starts from
+    /// there on are `near`.
     ///
     /// A cell of the grid holds one start on the mean, so the next two are looked at
     /// without a branch that could be guessed wrong; what is left to bisect is rare for
     /// any weights.
     #[inline(always)]
-    pub(crate) fn share_around(self, fraction: u64) -> (usize, (u64, u64)) {
-        let cell = (fraction >> self.shift) as usize;
-        let first = self.grid[cell] as usize;
-        let near = &self.starts[first..first + 4];
+    fn share_among(self, fraction: u64, first: usize, near: [u64; 4]) -> (usize, (u64, u64)) {
         let further = (near[1] <= fraction) as usize + (near[2] <= fraction) as usize;
         let (mut index, mut start, mut end) = (first + further, near[further], near[further + 1]);
         if near[2] <= fraction {
-            index = bisect(self.starts, first, self.grid[cell + 1] as usize, fraction);
+            let next = self.grid[(fraction >> self.shift) as usize + 1] as usize;
+            index = bisect(self.starts, first, next, fraction);
             (start, end) = (self.starts[index], self.starts[index + 1]);
         }
         (index, (start, end - start))
     }
+}
+
+/// How far into its share a fraction fell, and the width of the share, as
+/// [`locate`](Tables::locate) gives them.
+#[inline(always)]
+fn inside(fraction: u64, (start, width): (u64, u64)) -> [i32; 2] {
+    let width = width.max(1);
+    let cut = 33u32.saturating_sub(width.leading_zeros());
+    [((fraction - start) >> cut) as i32, (width >> cut) as i32]
 }
 
 /// The element among `first..=last` in whose share `fraction` falls. Takes no more than

@@ -1,5 +1,11 @@
 //! Images that modulate properties over the surface.
 
+use fearless_simd::{Level, dispatch};
+use pelage_curves::Vec2;
+
+/// Places that are read together.
+const BATCH: usize = 64;
+
 /// What lies outside 0..1 in texture space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
@@ -166,6 +172,97 @@ impl ImageMap {
         })
     }
 
+    /// Writes [`sample`](Self::sample) at all of `uvs` to `values`, of the same length.
+    ///
+    /// Where the texels of many places lie is known before the first of them is read, and
+    /// little is done between two readings: so processors wait for many at once.
+    pub fn sample_all(&self, uvs: &[Vec2], channel: u32, wrap: Wrap, values: &mut [f32]) {
+        let channel = channel.min(self.channels - 1) as usize;
+        for (uvs, values) in uvs.chunks(BATCH).zip(values.chunks_mut(BATCH)) {
+            let corners = self.corners(uvs, wrap);
+            for (value, corners) in values.iter_mut().zip(&corners) {
+                *value = corners.blend(|at| self.texels[at + channel]);
+            }
+        }
+    }
+
+    /// Writes [`sample_rgb`](Self::sample_rgb) at all of `uvs` to `colors`, of the same
+    /// length.
+    pub fn sample_rgb_all(&self, uvs: &[Vec2], wrap: Wrap, colors: &mut [[f32; 3]]) {
+        for (uvs, colors) in uvs.chunks(BATCH).zip(colors.chunks_mut(BATCH)) {
+            let corners = self.corners(uvs, wrap);
+            for (color, corners) in colors.iter_mut().zip(&corners) {
+                *color = if self.channels >= 3 {
+                    std::array::from_fn(|k| corners.blend(|at| self.texels[at + k]))
+                } else {
+                    [corners.blend(|at| self.texels[at]); 3]
+                };
+            }
+        }
+    }
+
+    /// Where the texels around each of up to [`BATCH`] places begin.
+    fn corners(&self, uvs: &[Vec2], wrap: Wrap) -> [Corners; BATCH] {
+        let mut corners = [Corners::default(); BATCH];
+        let mut inside = false;
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            inside = self.corners_inside(uvs, &mut corners)
+        });
+        if !inside {
+            for (corners, uv) in corners.iter_mut().zip(uvs) {
+                *corners = self.corners_around(uv, wrap);
+            }
+        }
+        corners
+    }
+
+    fn corners_around(&self, uv: &Vec2, wrap: Wrap) -> Corners {
+        let around = self.around(uv.x, uv.y, wrap);
+        let at = |i: usize, j: usize| {
+            let row = around.rows[j] as usize * self.width as usize;
+            (row + around.columns[i] as usize) * self.channels as usize
+        };
+        Corners {
+            starts: [at(0, 0), at(1, 0), at(0, 1), at(1, 1)],
+            across: around.across,
+            down: around.down,
+        }
+    }
+
+    /// The same where no place lies at the border or outside, which it tells: then nothing
+    /// wraps, and the arithmetic of many places goes side by side.
+    #[inline(always)]
+    fn corners_inside(&self, uvs: &[Vec2], corners: &mut [Corners; BATCH]) -> bool {
+        let [mut us, mut vs] = [[0.5; BATCH]; 2];
+        for (k, uv) in uvs.iter().enumerate() {
+            (us[k], vs[k]) = (uv.x, uv.y);
+        }
+        let [mut columns, mut rows] = [[0u32; BATCH]; 2];
+        let [mut across, mut down] = [[0.0; BATCH]; 2];
+        let [last_column, last_row] = [self.width, self.height].map(|n| n as f64 - 1.0);
+        let mut inside = true;
+        for k in 0..BATCH {
+            let [x, y] = self.texels_at([us[k], vs[k]]);
+            let [x0, y0] = [x, y].map(f64::floor);
+            // What is no number is not inside either.
+            inside &= (x0 >= 0.0) & (x0 < last_column) & (y0 >= 0.0) & (y0 < last_row);
+            (columns[k], rows[k]) = (x0 as u32, y0 as u32);
+            (across[k], down[k]) = ((x - x0) as f32, (y - y0) as f32);
+        }
+        let channels = self.channels as usize;
+        let row = self.width as usize * channels;
+        for k in 0..BATCH {
+            let first = rows[k] as usize * row + columns[k] as usize * channels;
+            corners[k] = Corners {
+                starts: [first, first + channels, first + row, first + row + channels],
+                across: across[k],
+                down: down[k],
+            };
+        }
+        inside
+    }
+
     /// The texel that `(u, v)` falls in, unfiltered: for maps whose colours are names.
     pub fn nearest(&self, u: f32, v: f32, wrap: Wrap) -> &[f32] {
         let [x, y] = wrap.texel([u, v], [self.width, self.height]);
@@ -221,6 +318,21 @@ impl Around {
     pub(crate) fn blend(&self, at: impl Fn(usize, usize) -> f32) -> f32 {
         let four = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
         bilinear(four, self.across, self.down)
+    }
+}
+
+/// Where the four texels around a place begin, and how far it lies between them.
+#[derive(Clone, Copy, Default)]
+struct Corners {
+    starts: [usize; 4],
+    across: f32,
+    down: f32,
+}
+
+impl Corners {
+    #[inline(always)]
+    fn blend(&self, texel: impl Fn(usize) -> f32) -> f32 {
+        bilinear(self.starts.map(texel), self.across, self.down)
     }
 }
 
@@ -322,6 +434,38 @@ mod tests {
         // No seam: on the border, both sides are the border's texel.
         assert_eq!(at(1.0, 0.75), 1.0);
         assert_eq!(at(0.25, 0.0), 2.0);
+    }
+
+    #[test]
+    fn many_at_once_are_those_one_by_one() {
+        let image = |channels| {
+            let texels = (0..35 * channels).map(|i| (i * 37 % 19) as f32).collect();
+            ImageMap::new(7, 5, channels, texels, false).unwrap()
+        };
+        let coordinate = |i: u32, step: u32| (i * step % 211) as f32 / 210.0;
+        let inside = |i| Vec2::new(coordinate(i, 3), coordinate(i, 50)) * 0.8 + 0.1;
+        // More than a batch whose places are all inside, then some at borders and beyond.
+        let mut uvs: Vec<Vec2> = (0..150).map(inside).collect();
+        uvs.extend([0.0, 1.0, 1e-9, -0.3, 7.2, f32::NAN, f32::INFINITY, -1e30].map(Vec2::splat));
+        for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
+            for channels in 1..=4 {
+                let image = image(channels);
+                let mut values = vec![0.0; uvs.len()];
+                image.sample_all(&uvs, channels - 1, wrap, &mut values);
+                let mut colors = vec![[0.0; 3]; uvs.len()];
+                image.sample_rgb_all(&uvs, wrap, &mut colors);
+                let bits = |color: [f32; 3]| color.map(f32::to_bits);
+                for (uv, (value, color)) in uvs.iter().zip(values.iter().zip(colors)) {
+                    let alone = image.sample(uv.x, uv.y, channels - 1, wrap);
+                    assert_eq!(value.to_bits(), alone.to_bits(), "{uv}");
+                    assert_eq!(
+                        bits(color),
+                        bits(image.sample_rgb(uv.x, uv.y, wrap)),
+                        "{uv}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]

@@ -99,13 +99,11 @@ impl RootSampler {
     /// arithmetic of many at once and wait for the memory of many at once.
     #[inline(always)]
     fn lead<const N: usize>(&self, xs: &[u64; N], ys: &[u32; N], places: &mut [SurfacePoint; N]) {
-        let [mut inside, mut width] = [[0; N]; 2];
+        let mut rests = [[0; 2]; N];
         let (mut pieces, mut triangles) = ([0; N], [0; N]);
         let mut parts = [Part::WHOLE; N];
         let tables = self.distribution.tables();
-        for k in 0..N {
-            (pieces[k], [inside[k], width[k]]) = tables.locate(xs[k]);
-        }
+        tables.locate_all(xs, &mut pieces, &mut rests);
         let names = self.pieces.names();
         let mut splits = false;
         for k in 0..N {
@@ -119,7 +117,8 @@ impl RootSampler {
         // from its first corner.
         let [mut u, mut v] = [[0.0; N]; 2];
         for k in 0..N {
-            let root = (inside[k] as f32 / width[k] as f32).sqrt();
+            let [inside, width] = rests[k];
+            let root = (inside as f32 / width as f32).sqrt();
             [u[k], v[k]] = [1.0 - root, fraction(ys[k]) * root];
         }
         for k in 0..N {

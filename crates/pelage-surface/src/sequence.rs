@@ -293,7 +293,7 @@ pub(crate) fn mix(mut x: u32) -> u32 {
 /// ```
 /// assert_ne!(pelage_surface::hash(0), pelage_surface::hash(1));
 /// ```
-#[inline]
+#[inline(always)]
 pub fn hash(x: u64) -> u64 {
     let mut x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);

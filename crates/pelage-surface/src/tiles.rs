@@ -66,10 +66,10 @@ impl<T> Tiles<T> {
     }
 
     /// Another set with the same tiles.
-    pub fn map<U>(&self, f: impl Fn(&T) -> U) -> Tiles<U> {
+    pub fn map<U>(&self, mut f: impl FnMut(&T) -> U) -> Tiles<U> {
         let tiles = self.tiles.iter();
         Tiles {
-            tiles: tiles.map(|tile| tile.as_ref().map(&f)).collect(),
+            tiles: tiles.map(|tile| tile.as_ref().map(&mut f)).collect(),
         }
     }
 

@@ -10,7 +10,7 @@ use crate::maps::{FieldMaker, ScalarField};
 use crate::random::{Channel, uniform};
 use crate::recipe;
 use crate::stages::length;
-use pelage_curves::{Vec2, Vec3};
+use pelage_curves::Vec3;
 use std::f32::consts::TAU;
 
 /// The properties of flyaways over the surface.
@@ -29,14 +29,6 @@ pub struct Stray {
     pub clumped: f32,
 }
 
-impl Stray {
-    /// A hair that does not stray.
-    pub const NONE: Self = Self {
-        toward: Vec3::ZERO,
-        clumped: 1.0,
-    };
-}
-
 impl FlyawayFields {
     /// Reads `[flyaway]`; `None` where no hair strays.
     pub(crate) fn new(
@@ -51,17 +43,26 @@ impl FlyawayFields {
         Ok(acts.then_some(fields))
     }
 
-    /// How hair `hair` with its root at `uv` strays.
-    pub(crate) fn at(&self, uv: Vec2, seed: u64, hair: u64) -> Stray {
-        let share = self.percent.at(uv) / 100.0;
-        if uniform(seed, hair, Channel::Flyaway) >= share {
-            return Stray::NONE;
+    /// Its properties, in the order in which [`Stray::new`] takes their values.
+    pub(crate) fn fields(&self) -> [&ScalarField; 2] {
+        [&self.percent, &self.strength]
+    }
+}
+
+impl Stray {
+    /// How hair `hair` strays, from what the properties are at its root.
+    pub(crate) fn new([percent, strength]: [f32; 2], seed: u64, hair: u64) -> Self {
+        if uniform(seed, hair, Channel::Flyaway) >= percent / 100.0 {
+            return Self {
+                toward: Vec3::ZERO,
+                clumped: 1.0,
+            };
         }
-        let strength = self.strength.at(uv).max(0.0);
+        let strength = strength.max(0.0);
         let height = uniform(seed, hair, Channel::FlyawayHeight);
         let (sine, cosine) = libm::sincosf(TAU * uniform(seed, hair, Channel::FlyawayAngle));
         let flat = (1.0 - height * height).max(0.0).sqrt();
-        Stray {
+        Self {
             toward: Vec3::new(cosine * flat, sine * flat, height) * strength,
             clumped: (1.0 - strength).max(0.0),
         }

@@ -10,7 +10,7 @@
 use crate::PlanError;
 use crate::maps::{FieldMaker, ScalarField};
 use crate::noise::noise_vectors;
-use crate::noise_fields::NoiseFields;
+use crate::noise_fields::{HairNoise, NoiseFields};
 use crate::random::Channel;
 use crate::recipe;
 use crate::stages::roots::Root;
@@ -58,13 +58,20 @@ impl FrizzFields {
         }))
     }
 
-    /// The frizz of the hair that grows at `root`.
-    pub(crate) fn at(&self, root: &Root) -> Frizz {
-        let noise = self.noise.at(root.uv);
+    /// Its properties, in the order in which [`hair`](Self::hair) takes their values.
+    pub(crate) fn fields(&self) -> [&ScalarField; 7] {
+        let [x, y, z, root, tip] = self.noise.fields();
+        [x, y, z, root, tip, &self.speed, &self.moving]
+    }
+
+    /// The frizz of the hair that grows at `root`, from what its properties are there.
+    pub(crate) fn hair(&self, root: &Root, values: [f32; 7]) -> Frizz {
+        let [x, y, z, at_root, at_tip, speed, moving] = values;
+        let noise = HairNoise::new([x, y, z, at_root, at_tip]);
         Frizz {
             place: noise.frequency * root.rest,
-            velocity: self.direction * self.speed.at(root.uv),
-            moving: self.moving.at(root.uv).clamp(0.0, 1.0),
+            velocity: self.direction * speed,
+            moving: moving.clamp(0.0, 1.0),
             root: noise.root,
             tip: noise.tip,
         }

@@ -7,6 +7,9 @@
 
 use crate::color::ColorMix;
 
+/// Vertices of a hair that are coloured together.
+const ROW: usize = 8;
+
 /// A hair's values at root and tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
@@ -21,7 +24,7 @@ pub struct Look {
 /// Writes the values at the vertices `numbers` of a hair of `segments` cut at `cut` in
 /// 0..=1, the last of which is where it is cut; the three slices have the length of
 /// `numbers`.
-#[inline]
+#[inline(always)]
 pub fn along(
     look: &Look,
     numbers: &[u32],
@@ -38,16 +41,24 @@ pub fn along(
         usize::MAX
     };
     let mix = |[root, tip]: [f32; 2], t: f32| root * (1.0 - t) + tip * t;
-    let values = colors.iter_mut().zip(opacities).zip(widths);
-    for (i, (((color, opacity), width), &number)) in values.zip(numbers).enumerate() {
-        let t = if i == cut_vertex {
-            cut
-        } else {
-            number as f32 * step
-        };
-        *color = look.color.at(t);
-        *opacity = mix(look.opacity, t);
-        *width = mix(look.width, t);
+    for (row, numbers) in numbers.chunks(ROW).enumerate() {
+        let first = row * ROW;
+        let mut ts = [0.0; ROW];
+        for (k, &number) in numbers.iter().enumerate() {
+            ts[k] = if first + k == cut_vertex {
+                cut
+            } else {
+                number as f32 * step
+            };
+        }
+        let [reds, greens, blues] = look.color.at(&ts);
+        let opacity = ts.map(|t| mix(look.opacity, t));
+        let width = ts.map(|t| mix(look.width, t));
+        for k in 0..numbers.len() {
+            colors[first + k] = [reds[k], greens[k], blues[k]];
+            opacities[first + k] = opacity[k];
+            widths[first + k] = width[k];
+        }
     }
 }
 

@@ -85,19 +85,35 @@ impl StrandFields {
         Ok((strand.count > 0).then_some(fields))
     }
 
-    /// The bundle of a hair with its root at `uv`.
-    pub(crate) fn at(&self, uv: Vec2) -> Bundle {
-        Bundle {
-            splay: self.splay.each_ref().map(|field| field.at(uv).max(0.0)),
-            twist: self.twist.at(uv).to_radians(),
-            aspect: self.aspect.at(uv).max(0.0),
-            offset: self.offset.at(uv),
-            randomize: self.randomize.at(uv).clamp(0.0, 1.0),
-        }
+    /// Its properties, in the order in which [`Bundle::new`] takes their values.
+    pub(crate) fn fields(&self) -> [&ScalarField; 7] {
+        let [root, center, tip] = &self.splay;
+        let (twist, aspect) = (&self.twist, &self.aspect);
+        [
+            root,
+            center,
+            tip,
+            twist,
+            aspect,
+            &self.offset,
+            &self.randomize,
+        ]
     }
 }
 
 impl Bundle {
+    /// The bundle of a hair from what its properties are at its root.
+    pub(crate) fn new(values: [f32; 7]) -> Self {
+        let [root, center, tip, twist, aspect, offset, randomize] = values;
+        Self {
+            splay: [root, center, tip].map(|splay| splay.max(0.0)),
+            twist: twist.to_radians(),
+            aspect: aspect.max(0.0),
+            offset,
+            randomize: randomize.clamp(0.0, 1.0),
+        }
+    }
+
     fn splay_at(&self, t: f32) -> f32 {
         let [root, center, tip] = self.splay;
         let border = 4.0 * (t - 0.5) * (t - 0.5);

@@ -11,8 +11,11 @@
 //! (hue 0), as in the document.
 
 use crate::color::{hsv_from_rgb, rgb_from_hsv};
+use crate::columns::Columns;
 use crate::maps::{ColorField, ScalarField};
 use crate::random::{Channel, uniform};
+use crate::stages::roots::Root;
+use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec2;
 
 /// What makes hairs differ in colour, over the surface.
@@ -31,40 +34,116 @@ pub struct Tint {
 }
 
 impl Tint {
-    /// Colours at root and tip of hair `hair` with its root at `uv`, from those of all
-    /// hairs there. Amounts of 0 give them back bit for bit.
-    #[inline]
-    pub fn apply(&self, common: [[f32; 3]; 2], uv: Vec2, seed: u64, hair: u64) -> [[f32; 3]; 2] {
-        let random = |channel| uniform(seed, hair, channel);
-        let share = self.mutant_percent.at(uv) / 100.0;
-        let mutant = share > 0.0 && random(Channel::Mutant) < share;
-        let colors = if mutant {
-            [self.mutant_color.at(uv); 2]
-        } else {
-            common
-        };
-        let shift = |field: &ScalarField, most: f32, channel| {
-            let amount = field.at(uv).clamp(0.0, most);
-            if amount > 0.0 {
-                amount * 2.0 * (random(channel) - 0.5)
-            } else {
-                0.0
-            }
-        };
-        let shifts = [
-            shift(&self.hue, 180.0, Channel::Hue),
-            shift(&self.saturation, 1.0, Channel::Saturation),
-            shift(&self.value, 1.0, Channel::Value),
+    /// Changes the colours at root and tip of the hairs at `roots`, whose texture
+    /// coordinates are `uvs`. Amounts of 0 leave them as they are, bit for bit.
+    pub(crate) fn apply(
+        &self,
+        roots: &[Root],
+        uvs: &[Vec2],
+        seed: u64,
+        columns: &mut Columns,
+        colors: [&mut [[f32; 3]]; 2],
+    ) {
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            self.apply_to_rows(roots, uvs, seed, columns, colors)
+        });
+    }
+
+    #[inline(always)]
+    fn apply_to_rows(
+        &self,
+        roots: &[Root],
+        uvs: &[Vec2],
+        seed: u64,
+        columns: &mut Columns,
+        [from, to]: [&mut [[f32; 3]]; 2],
+    ) {
+        let fields = [
+            &self.mutant_percent,
+            &self.hue,
+            &self.saturation,
+            &self.value,
         ];
-        if shifts == [0.0; 3] {
-            colors
-        } else {
-            colors.map(|color| shifted(color, shifts))
+        let mut amounts = columns.read(fields, uvs);
+        let colors = from.chunks_mut(ROW).zip(to.chunks_mut(ROW));
+        for (roots, (from, to)) in roots.chunks(ROW).zip(colors) {
+            let mut row = Row::default();
+            for (k, (root, amounts)) in roots.iter().zip(&mut amounts).enumerate() {
+                row.hairs[k] = root.hair;
+                for (all, amount) in row.amounts.iter_mut().zip(amounts) {
+                    all[k] = amount;
+                }
+            }
+            let (mutants, shifts) = row.draw(seed);
+            for (k, root) in roots.iter().enumerate().filter(|(k, _)| mutants[*k]) {
+                from[k] = self.mutant_color.at(root.uv);
+                to[k] = from[k];
+            }
+            shift_row(from, &shifts);
+            shift_row(to, &shifts);
         }
     }
 }
 
+/// Hairs whose colours are changed together.
+const ROW: usize = 16;
+
+/// What changes the colours of a row of hairs.
+#[derive(Default)]
+struct Row {
+    hairs: [u64; ROW],
+    /// Per cent of mutants, and largest shifts.
+    amounts: [[f32; ROW]; 4],
+}
+
+impl Row {
+    /// Which hairs are mutants, and the shifts of hue, saturation and value.
+    #[inline(always)]
+    fn draw(&self, seed: u64) -> ([bool; ROW], [[f32; ROW]; 3]) {
+        let [percent, hue, saturation, value] = &self.amounts;
+        let mut mutants = [false; ROW];
+        for k in 0..ROW {
+            let share = percent[k] / 100.0;
+            mutants[k] = uniform(seed, self.hairs[k], Channel::Mutant) < share;
+        }
+        let shifts = |amounts: &[f32; ROW], most: f32, channel| {
+            let mut shifts = [0.0; ROW];
+            for k in 0..ROW {
+                let random = uniform(seed, self.hairs[k], channel);
+                shifts[k] = amounts[k].clamp(0.0, most) * 2.0 * (random - 0.5);
+            }
+            shifts
+        };
+        let shifts = [
+            shifts(hue, 180.0, Channel::Hue),
+            shifts(saturation, 1.0, Channel::Saturation),
+            shifts(value, 1.0, Channel::Value),
+        ];
+        (mutants, shifts)
+    }
+}
+
+/// Shifts the colours of a row; those without shifts stay as they are.
+#[inline(always)]
+fn shift_row(colors: &mut [[f32; 3]], [hue, saturation, value]: &[[f32; ROW]; 3]) {
+    let [mut r, mut g, mut b] = [[0.0; ROW]; 3];
+    for (k, color) in colors.iter().enumerate() {
+        [r[k], g[k], b[k]] = *color;
+    }
+    for k in 0..ROW {
+        let (color, shifts) = ([r[k], g[k], b[k]], [hue[k], saturation[k], value[k]]);
+        let moved = shifted(color, shifts);
+        let still = shifts == [0.0; 3];
+        [r[k], g[k], b[k]] = if still { color } else { moved };
+    }
+    for (k, color) in colors.iter_mut().enumerate() {
+        *color = [r[k], g[k], b[k]];
+    }
+}
+
 /// `color` with `shifts` (hue in degrees, saturation, value) taken off in HSV.
+#[inline(always)]
 fn shifted(color: [f32; 3], shifts: [f32; 3]) -> [f32; 3] {
     let [hue, saturation, value] = hsv_from_rgb(color);
     rgb_from_hsv([

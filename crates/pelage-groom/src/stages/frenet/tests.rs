@@ -1,5 +1,5 @@
 use super::*;
-use crate::stages::interpolate::interpolate;
+use crate::stages::interpolate::{Row, interpolate, rows};
 use pelage_curves::DVec3;
 use pelage_curves::frenet::Frame;
 use proptest::prelude::*;
@@ -47,9 +47,13 @@ fn shares(weights: &[f32]) -> Vec<Share> {
     shares.collect()
 }
 
+fn in_rows(guides: &[Vec<Vec3>]) -> Vec<Row> {
+    guides.iter().flat_map(|guide| rows(guide)).collect()
+}
+
 /// The hairs that guides share by each of `weights`.
 fn frenet_each<const N: usize>(guides: &[Vec<Vec3>], weights: &[[f32; N]]) -> Vec<Vec<Vec3>> {
-    let (all, count) = (guides.concat(), guides[0].len());
+    let (all, count) = (in_rows(guides), guides[0].len());
     let profiles: Vec<Corner> = guides.iter().flat_map(|g| corners(g)).collect();
     let shares: Vec<Vec<Share>> = weights.iter().map(|w| shares(w)).collect();
     let mut hairs = vec![Vec3::ZERO; count * weights.len()];
@@ -73,7 +77,7 @@ fn frenet_each<const N: usize>(guides: &[Vec<Vec3>], weights: &[[f32; N]]) -> Ve
 /// The hair that guides share by `weights`, by vertices and by Frenet.
 fn both<const N: usize>(guides: &[Vec<Vec3>], weights: &[f32; N]) -> [Vec<Vec3>; 2] {
     let mut mean = vec![Vec3::ZERO; guides[0].len()];
-    interpolate(&guides.concat(), &shares(weights), &mut mean);
+    interpolate(&in_rows(guides), &shares(weights), &mut mean);
     [mean, frenet(guides, weights)]
 }
 
@@ -119,7 +123,7 @@ fn hairs_side_by_side_are_those_of_each_alone_also_of_different_segments() {
         };
         let first = vertices.len();
         vertices.resize(first + guides[0].len(), Vec3::ZERO);
-        interpolate(&guides.concat(), &mine, &mut vertices[first..]);
+        interpolate(&in_rows(guides), &mine, &mut vertices[first..]);
         starts.push(vertices.len() as u32);
         every.push(mine);
     }
