@@ -73,7 +73,14 @@ impl Plan {
         tangents.resize(hair.len(), Vec3::ZERO);
         sections.resize(hair.len(), strand::Section::default());
         catmull_rom::tangents(hair, tangents);
-        strand::sections(&capture.bundles[i], hair, tangents, normals, sections);
+        strand::sections(
+            fields.splay(),
+            &capture.bundles[i],
+            hair,
+            tangents,
+            normals,
+            sections,
+        );
         let first = i * fields.fibers as usize;
         for place in first..first + fields.fibers as usize {
             let (fiber, vertices) = (capture.fibers[place], curves.get_mut(place));

@@ -3,6 +3,7 @@
 //! Depends on the plan and the hairs' indices alone (architecture.md, laws 1 and 4).
 
 use crate::clock::{Clock, Stage};
+use crate::color::ColorMix;
 use crate::columns::Columns;
 use crate::locator::Near;
 use crate::looks::LookScratch;
@@ -65,6 +66,9 @@ pub struct Capture {
     pub(crate) share_starts: Vec<u32>,
     pub(crate) shares: Vec<Share>,
     pub(crate) looks: Vec<Look>,
+    /// The colours of each hair, hair by hair: see
+    /// [`ColorProfile::pieces`](crate::color_profile::ColorProfile::pieces).
+    pub(crate) mixes: Vec<ColorMix>,
     /// Empty where the recipe has none.
     pub(crate) frizz: Vec<Frizz>,
     /// Empty where the recipe has none.
@@ -228,6 +232,7 @@ impl Plan {
             bundles,
             fibers,
             looks,
+            mixes,
             look_scratch,
             ..
         } = capture;
@@ -246,8 +251,9 @@ impl Plan {
             }
         }
         looks.clear();
+        mixes.clear();
         let fields = &self.fields;
-        fields.read_looks(roots, uvs, self.seed, look_scratch, looks);
+        fields.read_looks(roots, uvs, self.seed, look_scratch, (looks, mixes));
         let started = clock.stop(Stage::Maps, started);
         self.clump(capture);
         clock.stop(Stage::Clump, started);

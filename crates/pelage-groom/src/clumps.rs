@@ -15,6 +15,7 @@ use crate::locator::{Locator, Near};
 use crate::maps::{FieldMaker, ScalarField};
 use crate::plan::Plan;
 use crate::pose::Moment;
+use crate::profile::Profile;
 use crate::random::{Channel, uniform};
 use crate::recipe::ClumpLevel;
 use crate::shape::Shapes;
@@ -30,7 +31,7 @@ const NEAREST: usize = 8;
 /// A level of clumps.
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
-    drawn: [ScalarField; 2],
+    drawn: Profile<2>,
     random: ScalarField,
     preserve_length: bool,
     /// The hairs in the middles, members of the levels before.
@@ -121,9 +122,9 @@ impl Plan {
         maker: &mut FieldMaker,
     ) -> Result<(), PlanError> {
         let key = format!("clump.levels[{}]", self.clumps.len());
-        let mut scalar = |name: &str, property| maker.scalar(&format!("{key}.{name}"), property);
-        let drawn = [scalar("root", &recipe.root)?, scalar("tip", &recipe.tip)?];
-        let random = scalar("random", &recipe.random)?;
+        let ends = [("root", &recipe.root), ("tip", &recipe.tip)];
+        let drawn = Profile::new(&key, ends, maker)?;
+        let random = maker.scalar(&format!("{key}.random"), &recipe.random)?;
         let found = self.middles(&key, recipe, maker)?;
         let mut middles = Capture::default();
         self.capture_middles(&found.places, &mut middles);
@@ -144,7 +145,7 @@ impl Plan {
         let mut columns = std::mem::take(&mut capture.columns);
         members.clear();
         for level in &self.clumps {
-            let [root, tip] = &level.drawn;
+            let [root, tip] = level.drawn.fields();
             let values = columns.read([root, tip, &level.random], &capture.uvs);
             let hairs = values.enumerate();
             members
@@ -170,7 +171,7 @@ impl Plan {
                 let hair = hairs.get_mut(i);
                 before.clear();
                 before.extend_from_slice(hair);
-                clump::draw(member, middles.get(clump as usize), hair);
+                clump::draw(&level.drawn, member, middles.get(clump as usize), hair);
                 if level.preserve_length {
                     length::preserve(before, 1.0, hair);
                 }

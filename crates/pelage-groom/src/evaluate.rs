@@ -119,11 +119,17 @@ impl Plan {
     #[inline(always)]
     fn color(&self, capture: &Capture, hair: usize, numbers: &[u32], out: &mut StrandBuffer) {
         let range = out.vertices(out.len() - 1);
+        let fields = &self.fields.look;
+        let pieces = fields.color.pieces();
         look::along(
+            fields,
             &capture.looks[hair],
-            numbers,
-            self.guides[capture.roots[hair].group as usize].segments,
-            capture.cut(hair),
+            &capture.mixes[hair * pieces..][..pieces],
+            look::Vertices {
+                numbers,
+                segments: self.guides[capture.roots[hair].group as usize].segments,
+                cut: capture.cut(hair),
+            },
             &mut out.colors[range.clone()],
             &mut out.opacities[range.clone()],
             &mut out.widths[range],

@@ -4,7 +4,7 @@
 use crate::color::ColorMix;
 use crate::columns::Columns;
 use crate::plan::Fields;
-use crate::stages::look::Look;
+use crate::stages::look::{Look, LookFields};
 use crate::stages::roots::Root;
 use pelage_curves::Vec2;
 
@@ -12,31 +12,37 @@ use pelage_curves::Vec2;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LookScratch {
     columns: Columns,
-    /// Colours at root and tip.
-    colors: [Vec<[f32; 3]>; 2],
+    /// Colours of all hairs at each place.
+    colors: Vec<Vec<[f32; 3]>>,
 }
 
 impl Fields {
-    /// Appends the looks of the hairs at `roots`, whose texture coordinates are `uvs`.
+    /// Appends the looks of the hairs at `roots`, whose texture coordinates are `uvs`, and
+    /// the mixes of their colours, hair by hair.
     pub(crate) fn read_looks(
         &self,
         roots: &[Root],
         uvs: &[Vec2],
         seed: u64,
         scratch: &mut LookScratch,
-        looks: &mut Vec<Look>,
+        (looks, mixes): (&mut Vec<Look>, &mut Vec<ColorMix>),
     ) {
         let LookScratch { columns, colors } = scratch;
-        for (field, colors) in self.color.iter().zip(&mut *colors) {
+        let LookFields {
+            color,
+            color_space,
+            opacity,
+            width,
+        } = &self.look;
+        colors.resize_with(color.fields.len(), Vec::new);
+        for (field, colors) in color.fields.iter().zip(&mut *colors) {
             field.read(uvs, colors);
         }
-        let [from, to] = colors;
-        self.tint.apply(roots, uvs, seed, columns, [from, to]);
-        let ([o, p], [w, x]) = (&self.opacity, &self.width);
+        self.tint.apply(roots, uvs, seed, columns, colors);
+        (0..roots.len()).for_each(|i| color.mix(*color_space, |place| colors[place][i], mixes));
+        let ([o, p], [w, x]) = (opacity.fields(), width.fields());
         let numbers = columns.read([o, p, w, x], uvs);
-        let hairs = from.iter().zip(to).zip(numbers);
-        looks.extend(hairs.map(|((&from, &mut to), [o, p, w, x])| Look {
-            color: ColorMix::new(self.color_space, from, to),
+        looks.extend(numbers.map(|[o, p, w, x]| Look {
             opacity: [o, p].map(|opacity| opacity.clamp(0.0, 1.0)),
             width: [w, x].map(|width| width.max(0.0)),
         }));

@@ -27,6 +27,12 @@ pub struct ScalarField {
 }
 
 impl ScalarField {
+    /// 0 everywhere.
+    pub(crate) const ZERO: Self = Self {
+        value: 0.0,
+        map: None,
+    };
+
     /// 1 everywhere.
     pub(crate) const ONE: Self = Self {
         value: 1.0,

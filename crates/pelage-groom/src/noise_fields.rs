@@ -1,8 +1,9 @@
 //! What frizz and kink have in common: the frequencies of a noise along the axes, and
-//! amounts at root and tip.
+//! amounts along hairs.
 
 use crate::PlanError;
 use crate::maps::{FieldMaker, ScalarField};
+use crate::profile::Profile;
 use crate::random::{Channel, noise_seed};
 use crate::recipe::ScalarProperty;
 use pelage_curves::Vec3;
@@ -11,8 +12,7 @@ use pelage_curves::Vec3;
 #[derive(Clone, Debug)]
 pub struct NoiseFields {
     frequency: [ScalarField; 3],
-    root: ScalarField,
-    tip: ScalarField,
+    amount: Profile<2>,
     /// Which noise it is.
     pub(crate) seed: u32,
 }
@@ -22,14 +22,12 @@ pub struct NoiseFields {
 pub struct HairNoise {
     /// Along the axes, per unit of the mesh; at least 0.
     pub frequency: Vec3,
-    /// Amount at the root, at least 0.
-    pub root: f32,
-    /// Amount at the tip, at least 0.
-    pub tip: f32,
+    /// Amounts at root and tip, at least 0; with a ramp, the first multiplies it.
+    pub amount: [f32; 2],
 }
 
 impl NoiseFields {
-    /// Reads the section `key` of a recipe; `None` where both amounts are 0.
+    /// Reads the section `key` of a recipe; `None` where the amounts are 0.
     pub(crate) fn new(
         key: &str,
         frequency: &[ScalarProperty; 3],
@@ -39,18 +37,27 @@ impl NoiseFields {
     ) -> Result<Option<Self>, PlanError> {
         let fields = Self {
             frequency: maker.frequencies(&format!("{key}.frequency"), frequency)?,
-            root: maker.scalar(&format!("{key}.root"), root)?,
-            tip: maker.scalar(&format!("{key}.tip"), tip)?,
+            amount: Profile::new(key, [("root", root), ("tip", tip)], maker)?,
             seed: noise_seed(seed, channel),
         };
-        let acts = !(fields.root.is_zero() && fields.tip.is_zero());
-        Ok(acts.then_some(fields))
+        Ok(Some(fields).filter(|fields| !fields.amount.is_zero()))
     }
 
     /// Its properties, in the order in which [`HairNoise::new`] takes their values.
     pub(crate) fn fields(&self) -> [&ScalarField; 5] {
-        let [x, y, z] = &self.frequency;
-        [x, y, z, &self.root, &self.tip]
+        let ([x, y, z], [root, tip]) = (&self.frequency, self.amount.fields());
+        [x, y, z, root, tip]
+    }
+
+    /// How much of the noise a hair of `amount` has at `t`; `between` says it without a ramp.
+    #[inline(always)]
+    pub(crate) fn amount(
+        &self,
+        amount: [f32; 2],
+        t: f32,
+        between: impl Fn([f32; 2], f32) -> f32,
+    ) -> f32 {
+        self.amount.at(amount, t, between)
     }
 }
 
@@ -60,8 +67,7 @@ impl HairNoise {
         let [x, y, z, root, tip] = values.map(|value| value.max(0.0));
         Self {
             frequency: Vec3::new(x, y, z),
-            root,
-            tip,
+            amount: [root, tip],
         }
     }
 }

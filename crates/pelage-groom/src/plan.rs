@@ -2,19 +2,22 @@
 
 use crate::clumps::Level;
 use crate::color::ColorSpace;
+use crate::color_profile::ColorProfile;
 use crate::curves::Curves;
 use crate::groom::Groom;
 use crate::groups::Groups;
 use crate::guide::{self, Guide};
 use crate::guide_set::GuideSet;
-use crate::maps::{ColorField, FieldMaker, ScalarField};
+use crate::maps::{FieldMaker, ScalarField};
 use crate::neighbors::Sharing;
 use crate::noise_fields::NoiseFields;
 use crate::pose::Moment;
+use crate::profile::Profile;
 use crate::random::Channel;
 use crate::recipe::{self, GuideSource, InterpolationSpace, Recipe};
 use crate::stages::flyaway::FlyawayFields;
 use crate::stages::frizz::FrizzFields;
+use crate::stages::look::LookFields;
 use crate::stages::strand::StrandFields;
 use crate::stages::tint::Tint;
 use crate::{PlanError, RootPlan, grow, root_plan};
@@ -52,11 +55,8 @@ pub(crate) struct Fields {
     pub flyaway: Option<FlyawayFields>,
     /// `None` where hairs are single.
     pub strand: Option<StrandFields>,
-    pub color: [ColorField; 2],
-    pub color_space: ColorSpace,
+    pub look: LookFields,
     pub tint: Tint,
-    pub opacity: [ScalarField; 2],
-    pub width: [ScalarField; 2],
 }
 
 /// Which stages leave hairs their length.
@@ -200,26 +200,28 @@ impl Fields {
             },
             flyaway: FlyawayFields::new(&r.flyaway, maker)?,
             strand: StrandFields::new(&r.strand, maker)?,
-            color: [
-                maker.color("color.root", &r.color.root)?,
-                maker.color("color.tip", &r.color.tip)?,
-            ],
-            color_space: match r.color.space {
-                recipe::ColorSpace::Hsv => ColorSpace::Hsv,
-                recipe::ColorSpace::Oklab => ColorSpace::Oklab,
-                recipe::ColorSpace::Rgb => ColorSpace::Rgb,
-            },
+            look: look(recipe, maker)?,
             tint: tint(recipe, maker)?,
-            opacity: [
-                maker.scalar("opacity.root", &r.opacity.root)?,
-                maker.scalar("opacity.tip", &r.opacity.tip)?,
-            ],
-            width: [
-                maker.scalar("width.root", &r.width.root)?,
-                maker.scalar("width.tip", &r.width.tip)?,
-            ],
         })
     }
+}
+
+fn look(recipe: &Recipe, maker: &mut FieldMaker) -> Result<LookFields, PlanError> {
+    let (opacity, width) = (&recipe.opacity, &recipe.width);
+    Ok(LookFields {
+        color: ColorProfile::new(&recipe.color, maker)?,
+        color_space: match recipe.color.space {
+            recipe::ColorSpace::Hsv => ColorSpace::Hsv,
+            recipe::ColorSpace::Oklab => ColorSpace::Oklab,
+            recipe::ColorSpace::Rgb => ColorSpace::Rgb,
+        },
+        opacity: Profile::new(
+            "opacity",
+            [("root", &opacity.root), ("tip", &opacity.tip)],
+            maker,
+        )?,
+        width: Profile::new("width", [("root", &width.root), ("tip", &width.tip)], maker)?,
+    })
 }
 
 fn tint(recipe: &Recipe, maker: &mut FieldMaker) -> Result<Tint, PlanError> {

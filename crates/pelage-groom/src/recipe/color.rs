@@ -70,10 +70,6 @@ impl PropertyValue for [f32; 3] {
         }
     }
 
-    fn is_zero(&self) -> bool {
-        false
-    }
-
     fn json(&self) -> Value {
         json!(self.map(json_decimal))
     }

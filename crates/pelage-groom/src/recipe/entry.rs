@@ -83,8 +83,6 @@ pub(crate) struct Leaf<'a> {
     pub(crate) text: Option<String>,
     /// Maps used, each with its own dotted key.
     pub(crate) maps: Vec<(String, &'a MapUse)>,
-    /// Whether zero makes the value vanish: it does so whatever its map holds.
-    pub(crate) zero: bool,
     /// Whether the value is a ramp.
     pub(crate) ramp: bool,
     /// The documentation of the key.
@@ -106,7 +104,6 @@ impl<'a> Leaf<'a> {
             key: key.to_owned(),
             text: None,
             maps: Vec::new(),
-            zero: false,
             ramp: false,
             doc,
         }

@@ -23,8 +23,6 @@ pub enum ProblemKind {
     Missing,
     /// Two keys that exclude each other.
     Exclusive,
-    /// A key whose stage does not exist yet.
-    Unbuilt,
     /// Something the recipe names (a map, a mesh) does not fit it.
     Content,
 }

@@ -113,9 +113,4 @@ impl Recipe {
             .problem(ProblemKind::Content, key, message.into());
         RecipeError::from(problem)
     }
-
-    /// The problem of a key whose stage is missing.
-    pub(crate) fn unbuilt_problem(&self, key: &str, message: String) -> Problem {
-        self.origin.problem(ProblemKind::Unbuilt, key, message)
-    }
 }

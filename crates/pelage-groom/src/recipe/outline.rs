@@ -7,14 +7,9 @@ use serde_json::Value;
 use super::Recipe;
 use super::entry::{Entry, Rule};
 use super::schema::description;
-use super::stages;
 
 /// How a doc comment names what document 004 calls a key.
 const ANCESTOR: &str = " (document 004: ";
-
-/// Sections of which every key does nothing until one key is set: all wait for the
-/// stage that this one waits for.
-const SWITCHES: [(&str, &str); 1] = [("strand.", "strand.count")];
 
 /// A section of a recipe with what is to be known of its keys.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,10 +43,6 @@ pub struct KeyOutline {
     pub map: bool,
     /// Whether it takes a ramp.
     pub ramp: bool,
-    /// The stage that is not there yet, if it waits for one.
-    pub missing: Option<&'static str>,
-    /// Whether it takes one of a few words, or true and false.
-    pub choice: bool,
 }
 
 /// Every section of a recipe, in the order of the layout.
@@ -112,17 +103,8 @@ impl KeyOutline {
             required: rule.required,
             map: takes(schema, "map"),
             ramp: takes(schema, "ramp"),
-            missing: missing(key),
-            choice: choice || plain(schema)["type"] == "boolean",
         }
     }
-}
-
-fn missing(key: &str) -> Option<&'static str> {
-    let switch = SWITCHES
-        .iter()
-        .find(|(section, _)| key.starts_with(section));
-    stages::missing(key).or_else(|| stages::missing(switch?.1))
 }
 
 /// Takes the names of document 004 out of `does`.
@@ -222,15 +204,5 @@ mod tests {
         told.sort();
         expected.sort();
         assert_eq!(told, expected);
-    }
-
-    #[test]
-    fn switches_are_keys_of_their_sections() {
-        let told = outline();
-        for (section, switch) in SWITCHES {
-            assert!(switch.starts_with(section));
-            let mut keys = told.iter().flat_map(|section| &section.keys);
-            assert!(keys.any(|key| key.key == switch), "{switch}");
-        }
     }
 }

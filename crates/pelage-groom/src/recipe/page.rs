@@ -1,7 +1,6 @@
 //! The page that explains every property to people.
 
 use super::outline::{KeyOutline, outline};
-use super::stages;
 use super::strips::{STRIPS, Strip};
 use std::fmt::Write;
 
@@ -11,9 +10,6 @@ const INTRODUCTION: &str = include_str!("page.md");
 /// The page of all properties as Markdown, as it is checked in.
 pub fn properties_text() -> String {
     let mut text = INTRODUCTION.to_owned();
-    if !stages::RAMPS {
-        text += "Ramps are to come too.\n";
-    }
     for section in outline() {
         let does = &section.does;
         // Writing to a String cannot fail.
@@ -21,8 +17,8 @@ pub fn properties_text() -> String {
         if section.keys.is_empty() {
             continue;
         }
-        text += "\n| key | what it does | values | default | takes | document 004 | there |\n\
-            |---|---|---|---|---|---|---|\n";
+        text += "\n| key | what it does | values | default | takes | document 004 |\n\
+            |---|---|---|---|---|---|\n";
         section.keys.iter().for_each(|key| text += &row(key));
         let of_section = |strip: &&Strip| section.keys.iter().any(|key| key.key == strip.key);
         STRIPS
@@ -61,14 +57,8 @@ fn row(key: &KeyOutline) -> String {
         .filter(|(_, takes)| *takes)
         .map(|(what, _)| *what)
         .collect();
-    let there = match key.missing {
-        None => "yes".to_owned(),
-        // The other words are there.
-        Some(stage) if key.choice => format!("without {stage}"),
-        Some(_) => "*to come*".to_owned(),
-    };
     format!(
-        "| `{name}` | {} | {}{unit} | {default} | {} | {} | {there} |\n",
+        "| `{name}` | {} | {}{unit} | {default} | {} | {} |\n",
         cell(&key.does),
         cell(&key.values),
         takes.join(", "),

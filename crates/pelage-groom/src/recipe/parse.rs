@@ -26,14 +26,6 @@ impl Recipe {
     ///
     /// The error lists every mistake, each with its place.
     pub fn parse(text: &str, file: &Path) -> Result<Self, RecipeError> {
-        let (recipe, mut problems) = read(text, file)?;
-        recipe.refuse_unbuilt(&mut problems);
-        finish(recipe, problems)
-    }
-
-    /// Like [`Recipe::parse`], but accepts keys whose stage does not exist yet;
-    /// [`Recipe::unbuilt`] then lists them.
-    pub fn parse_ahead(text: &str, file: &Path) -> Result<Self, RecipeError> {
         let (recipe, problems) = read(text, file)?;
         finish(recipe, problems)
     }
@@ -88,17 +80,6 @@ impl Recipe {
         self.settle(folder);
         self
     }
-
-    /// Adds the keys whose stage is missing to `problems`.
-    fn refuse_unbuilt(&self, problems: &mut Vec<Problem>) {
-        for unbuilt in self.unbuilt() {
-            // A value that is wrong in itself has been reported.
-            let wrong = |problem: &Problem| problem.key.starts_with(&unbuilt.key);
-            if !problems.iter().any(wrong) {
-                problems.push(self.unbuilt_problem(&unbuilt.key, unbuilt.message));
-            }
-        }
-    }
 }
 
 /// Accepts and refuses what [`Recipe::parse`] does; errors list every mistake
@@ -108,8 +89,7 @@ impl Recipe {
 impl<'de> Deserialize<'de> for Recipe {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut recipe = Self::default();
-        let mut problems = embed::read(deserializer, |value, reader| recipe.take(value, reader))?;
-        recipe.refuse_unbuilt(&mut problems);
+        let problems = embed::read(deserializer, |value, reader| recipe.take(value, reader))?;
         embed::finish(recipe, problems)
     }
 }

@@ -95,9 +95,6 @@ pub(crate) trait PropertyValue: Copy + Debug + PartialEq + Serialize {
     /// The value that leaves a map as it is.
     fn neutral(blend: Blend) -> Self;
 
-    /// Whether a multiplied map can change nothing.
-    fn is_zero(&self) -> bool;
-
     /// The plain form as JSON.
     fn json(&self) -> Value;
 
@@ -133,7 +130,6 @@ impl<V: PropertyValue> Entry for Property<V> {
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
         visit(Leaf {
             maps: self.map.iter().map(|map| (key.to_owned(), map)).collect(),
-            zero: self.ramp.is_none() && self.value.is_zero(),
             ramp: self.ramp.is_some(),
             ..Leaf::of(key, self, doc)
         });

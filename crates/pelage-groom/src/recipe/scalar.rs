@@ -28,10 +28,6 @@ impl PropertyValue for f32 {
         1.0
     }
 
-    fn is_zero(&self) -> bool {
-        *self == 0.0
-    }
-
     fn json(&self) -> Value {
         json_decimal(*self)
     }

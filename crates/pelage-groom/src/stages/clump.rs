@@ -1,7 +1,7 @@
 //! Clumps: hairs drawn to the hair in the middle of their clump.
 //!
 //! Ours; document 004 has none. A vertex p of a hair moves to p + w (m - p), where
-//! w = root · (1 - t) + tip · t with t = i / segments, and m is the point of the middle
+//! w = root · (1 - t) + tip · t with t = i / segments, or by a ramp; m is the point of the middle
 //! hair that is as far from its root along the hair: a hair shorter than the middle one
 //! ends before its tip, and one longer goes on straight. The root stays. Lengths are
 //! nominal, those of the guides as they are mixed and scaled.
@@ -10,6 +10,7 @@
 //! frizz and kink, so that a clump has those of its middle hair as a whole. Unit of the
 //! mesh.
 
+use crate::profile::{Profile, line};
 use pelage_curves::{Vec3, catmull_rom};
 
 /// A hair's place in a clump.
@@ -17,7 +18,8 @@ use pelage_curves::{Vec3, catmull_rom};
 pub struct Member {
     /// Number of the clump, if it has one.
     pub clump: Option<u32>,
-    /// How far it is drawn to the middle at root and tip, 0..=1.
+    /// How far it is drawn to the middle at root and tip, 0..=1; with a ramp, the first
+    /// multiplies it.
     pub drawn: [f32; 2],
     /// Segments of the middle hair that are as long as one of this.
     pub pace: f32,
@@ -32,14 +34,14 @@ impl Member {
     };
 }
 
-/// Draws a hair to `middle`, the hair in the middle of its clump.
-pub fn draw(member: &Member, middle: &[Vec3], hair: &mut [Vec3]) {
+/// Draws a hair to `middle`, the hair in the middle of its clump, along hairs as `drawn`
+/// has it.
+pub(crate) fn draw(drawn: &Profile<2>, member: &Member, middle: &[Vec3], hair: &mut [Vec3]) {
     let step = 1.0 / (hair.len().max(2) - 1) as f32;
-    let [root, tip] = member.drawn;
     for (i, vertex) in hair.iter_mut().enumerate().skip(1) {
         let t = i as f32 * step;
         let toward = point(middle, i as f32 * member.pace);
-        *vertex += (toward - *vertex) * (root * (1.0 - t) + tip * t);
+        *vertex += (toward - *vertex) * drawn.at(member.drawn, t, line);
     }
 }
 
@@ -87,7 +89,7 @@ mod tests {
                 drawn: [1.0, 1.0],
                 pace,
             };
-            draw(&member, &middle, &mut hair);
+            draw(&Profile::plain(), &member, &middle, &mut hair);
             for (i, vertex) in hair.iter().enumerate() {
                 let expected = Vec3::Z * (i as f32 * pace);
                 assert!(vertex.distance(expected) < 1e-5, "{vertex}");
@@ -104,7 +106,7 @@ mod tests {
             drawn: [0.0, 0.0],
             pace: 1.0,
         };
-        draw(&member, &straight(4, Vec3::Z), &mut hair);
+        draw(&Profile::plain(), &member, &straight(4, Vec3::Z), &mut hair);
         assert_eq!(hair, before);
     }
 }

@@ -3,8 +3,8 @@
 //! Source: document 004, section 2.2.5, with its errata: the animated part moves the
 //! domain of the noise (`frequency · root + speed · time · direction`) instead of
 //! multiplying it. `p += F · min(root · 4(t - t²) + tip · t², max(root, tip))` with
-//! t = i / segments, where F is three noises of the root at rest; its part along the
-//! normal points into the skin, so that frizz does not lengthen hair. The root stays.
+//! t = i / segments, or by a ramp in the place of that amount; F is three noises of the
+//! root at rest, and its part along the normal points into the skin, so that frizz does not lengthen hair. The root stays.
 //! Local space, unit of the mesh; frequencies per unit of the mesh, time in frames.
 
 use crate::PlanError;
@@ -35,8 +35,8 @@ pub struct Frizz {
     velocity: Vec3,
     /// Part of the frizz that moves, 0..=1.
     moving: f32,
-    root: f32,
-    tip: f32,
+    /// At root and tip, or what multiplies the ramp.
+    amount: [f32; 2],
 }
 
 impl FrizzFields {
@@ -72,8 +72,7 @@ impl FrizzFields {
             place: noise.frequency * root.rest,
             velocity: self.direction * speed,
             moving: moving.clamp(0.0, 1.0),
-            root: noise.root,
-            tip: noise.tip,
+            amount: noise.amount,
         }
     }
 
@@ -108,18 +107,24 @@ pub fn frizz(
     }
     for (i, (hair, bend)) in hairs.iter().zip(&*bends).enumerate() {
         let toward = Vec3::new(bend.x, bend.y, -bend.z.abs());
-        along(hair, toward, &mut local[range(i)]);
+        let amount = |t: f32| fields.noise.amount(hair.amount, t, profile);
+        along(amount, toward, &mut local[range(i)]);
     }
 }
 
-fn along(hair: &Frizz, toward: Vec3, vertices: &mut [Vec3]) {
+#[inline(always)]
+fn along(amount: impl Fn(f32) -> f32, toward: Vec3, vertices: &mut [Vec3]) {
     let step = 1.0 / (vertices.len().max(2) - 1) as f32;
-    let most = hair.root.max(hair.tip);
-    for (i, vertex) in vertices.iter_mut().enumerate() {
-        let t = i as f32 * step;
-        let profile = hair.root * 4.0 * (t - t * t) + hair.tip * t * t;
-        *vertex += toward * profile.min(most);
+    for (i, vertex) in vertices.iter_mut().enumerate().skip(1) {
+        *vertex += toward * amount(i as f32 * step);
     }
+}
+
+/// The document's amount at `t`, of those at root and tip.
+#[inline(always)]
+fn profile([root, tip]: [f32; 2], t: f32) -> f32 {
+    let both = root * 4.0 * (t - t * t) + tip * t * t;
+    both.min(root.max(tip))
 }
 
 #[cfg(test)]
@@ -128,21 +133,14 @@ mod tests {
 
     #[test]
     fn root_frizz_bends_the_middle_and_tip_frizz_the_tip() {
-        let hair = |root, tip| Frizz {
-            place: Vec3::ZERO,
-            velocity: Vec3::ZERO,
-            moving: 0.0,
-            root,
-            tip,
-        };
-        let bent = |hair| {
+        let bent = |ends| {
             let mut vertices = [Vec3::ZERO; 5];
-            along(&hair, Vec3::X, &mut vertices);
+            along(|t| profile(ends, t), Vec3::X, &mut vertices);
             vertices.map(|v| v.x)
         };
-        assert_eq!(bent(hair(1.0, 0.0)), [0.0, 0.75, 1.0, 0.75, 0.0]);
-        assert_eq!(bent(hair(0.0, 1.0)), [0.0, 0.0625, 0.25, 0.5625, 1.0]);
+        assert_eq!(bent([1.0, 0.0]), [0.0, 0.75, 1.0, 0.75, 0.0]);
+        assert_eq!(bent([0.0, 1.0]), [0.0, 0.0625, 0.25, 0.5625, 1.0]);
         // Nothing is bent more than the larger of the two says.
-        assert_eq!(bent(hair(1.0, 1.0)), [0.0, 0.8125, 1.0, 1.0, 1.0]);
+        assert_eq!(bent([1.0, 1.0]), [0.0, 0.8125, 1.0, 1.0, 1.0]);
     }
 }

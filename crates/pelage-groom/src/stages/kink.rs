@@ -1,12 +1,13 @@
 //! Kink: noise along each hair.
 //!
 //! Source: document 004, section 2.2.5: `p += K · ((1 - t) · root + t · tip)` with
-//! t = i / segments, where K is three noises of the vertex where it stands on the surface
-//! at rest. Unlike there, the root stays where it is: a hair keeps growing out of the skin
+//! t = i / segments, or by a ramp in the place of that amount; K is three noises of the
+//! vertex where it stands on the surface at rest. Unlike there, the root stays where it is: a hair keeps growing out of the skin
 //! whatever `kink.root`. Local space, unit of the mesh; frequencies per unit of the mesh.
 
 use crate::noise::noise_vectors;
 use crate::noise_fields::{HairNoise, NoiseFields};
+use crate::profile::line;
 use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
 use std::ops::Range;
@@ -39,7 +40,7 @@ pub fn kink(
         let vertices = local[range.clone()].iter_mut().zip(&values[range]);
         for (k, (vertex, value)) in vertices.enumerate().skip(1) {
             let t = k as f32 * step;
-            *vertex += *value * (hair.root * (1.0 - t) + hair.tip * t);
+            *vertex += *value * fields.amount(hair.amount, t, line);
         }
     }
 }

@@ -15,6 +15,7 @@
 
 use crate::PlanError;
 use crate::maps::{FieldMaker, ScalarField};
+use crate::profile::Profile;
 use crate::random::{Channel, uniform, word};
 use crate::recipe;
 use pelage_curves::{Vec2, Vec3};
@@ -25,7 +26,7 @@ use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 pub struct StrandFields {
     /// Fibres a hair, at least 1.
     pub fibers: u32,
-    splay: [ScalarField; 3],
+    splay: Profile<3>,
     twist: ScalarField,
     aspect: ScalarField,
     offset: ScalarField,
@@ -35,7 +36,8 @@ pub struct StrandFields {
 /// The bundle of one hair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bundle {
-    /// Largest distance of fibres from the hair at its root, centre and tip.
+    /// Largest distance of fibres from the hair at its root, centre and tip; with a ramp,
+    /// the first multiplies it.
     pub splay: [f32; 3],
     /// Turn from root to tip.
     pub twist: f32,
@@ -72,11 +74,15 @@ impl StrandFields {
         let splay = &strand.splay;
         let fields = Self {
             fibers: strand.count,
-            splay: [
-                maker.scalar("strand.splay.root", &splay.root)?,
-                maker.scalar("strand.splay.center", &splay.center)?,
-                maker.scalar("strand.splay.tip", &splay.tip)?,
-            ],
+            splay: Profile::new(
+                "strand.splay",
+                [
+                    ("root", &splay.root),
+                    ("center", &splay.center),
+                    ("tip", &splay.tip),
+                ],
+                maker,
+            )?,
             twist: maker.scalar("strand.twist", &strand.twist)?,
             aspect: maker.scalar("strand.aspect", &strand.aspect)?,
             offset: maker.scalar("strand.offset", &strand.offset)?,
@@ -85,9 +91,14 @@ impl StrandFields {
         Ok((strand.count > 0).then_some(fields))
     }
 
+    /// The distance of fibres along hairs.
+    pub(crate) fn splay(&self) -> &Profile<3> {
+        &self.splay
+    }
+
     /// Its properties, in the order in which [`Bundle::new`] takes their values.
     pub(crate) fn fields(&self) -> [&ScalarField; 7] {
-        let [root, center, tip] = &self.splay;
+        let [root, center, tip] = self.splay.fields();
         let (twist, aspect) = (&self.twist, &self.aspect);
         [
             root,
@@ -114,13 +125,6 @@ impl Bundle {
         }
     }
 
-    fn splay_at(&self, t: f32) -> f32 {
-        let [root, center, tip] = self.splay;
-        let border = 4.0 * (t - 0.5) * (t - 0.5);
-        let nearer = if t > 0.5 { tip } else { root };
-        border * nearer + (1.0 - border) * center
-    }
-
     /// Fibre number `fiber` of hair `hair` in the groom seeded `seed`.
     pub fn fiber(&self, seed: u64, hair: u64, fiber: u32) -> Fiber {
         let lack = match self.randomize > 0.0 {
@@ -137,9 +141,19 @@ impl Bundle {
     }
 }
 
-/// Writes what the fibres around `hair` have in common. `tangents` and `normals` are the
+/// The document's splay at `t`, of those at root, centre and tip.
+#[inline(always)]
+fn splay([root, center, tip]: [f32; 3], t: f32) -> f32 {
+    let border = 4.0 * (t - 0.5) * (t - 0.5);
+    let nearer = if t > 0.5 { tip } else { root };
+    border * nearer + (1.0 - border) * center
+}
+
+/// Writes what the fibres around `hair` have in common, whose splay is that of
+/// `fields`. `tangents` and `normals` are the
 /// unit vectors of the hair's frames; all four slices have one length.
-pub fn sections(
+pub(crate) fn sections(
+    fields: &Profile<3>,
     bundle: &Bundle,
     hair: &[Vec3],
     tangents: &[Vec3],
@@ -152,7 +166,7 @@ pub fn sections(
     for (i, section) in sections.iter_mut().enumerate() {
         let t = i as f32 * step;
         let (normal, binormal) = (normals[i], tangents[i].cross(normals[i]) * bundle.aspect);
-        let splay = bundle.splay_at(t);
+        let splay = fields.at(bundle.splay, t, splay);
         *section = Section {
             middle: hair[i] + normal * (bundle.offset * t * t * t),
             across: [
@@ -242,14 +256,8 @@ mod tests {
 
     #[test]
     fn splay_is_what_was_asked_at_root_centre_and_tip() {
-        let bundle = Bundle {
-            splay: [1.0, 2.0, 3.0],
-            twist: 0.0,
-            aspect: 1.0,
-            offset: 0.0,
-            randomize: 0.0,
-        };
-        assert_eq!([0.0, 0.5, 1.0].map(|t| bundle.splay_at(t)), [1.0, 2.0, 3.0]);
+        let ends = [1.0, 2.0, 3.0];
+        assert_eq!([0.0, 0.5, 1.0].map(|t| splay(ends, t)), ends);
     }
 
     #[test]
@@ -264,7 +272,14 @@ mod tests {
         let hair: Vec<Vec3> = (0..5).map(|i| Vec3::Y + Vec3::Z * i as f32).collect();
         let (tangents, normals) = ([Vec3::Z; 5], [Vec3::X; 5]);
         let mut common = [Section::default(); 5];
-        sections(&bundle, &hair, &tangents, &normals, &mut common);
+        sections(
+            &Profile::plain(),
+            &bundle,
+            &hair,
+            &tangents,
+            &normals,
+            &mut common,
+        );
         let fiber = Fiber {
             place: Vec2::X,
             lack: 0.0,

@@ -3,7 +3,7 @@
 //!
 //! Source: document 004, section 2.2.6. A hair is a mutant where ξ < percent / 100, and
 //! then has one colour from root to tip. Every colour is moved in HSV by
-//! -amount · 2 (ξ - ½), root and tip by the same; the hue goes round, saturation and
+//! -amount · 2 (ξ - ½), from root to tip by the same; the hue goes round, saturation and
 //! value end at 0 and 1. Colours linear RGB in 0..=1, hue in degrees. HSV is used for
 //! the shifts whatever space mixes root and tip.
 //!
@@ -34,15 +34,16 @@ pub struct Tint {
 }
 
 impl Tint {
-    /// Changes the colours at root and tip of the hairs at `roots`, whose texture
-    /// coordinates are `uvs`. Amounts of 0 leave them as they are, bit for bit.
+    /// Changes the colours of the hairs at `roots`, whose texture coordinates are `uvs`:
+    /// those at the root, and so on to the tip. Amounts of 0 leave them as they are, bit
+    /// for bit.
     pub(crate) fn apply(
         &self,
         roots: &[Root],
         uvs: &[Vec2],
         seed: u64,
         columns: &mut Columns,
-        colors: [&mut [[f32; 3]]; 2],
+        colors: &mut [Vec<[f32; 3]>],
     ) {
         dispatch!(Level::new(), simd => {
             let _ = simd;
@@ -57,7 +58,7 @@ impl Tint {
         uvs: &[Vec2],
         seed: u64,
         columns: &mut Columns,
-        [from, to]: [&mut [[f32; 3]]; 2],
+        colors: &mut [Vec<[f32; 3]>],
     ) {
         let fields = [
             &self.mutant_percent,
@@ -66,8 +67,7 @@ impl Tint {
             &self.value,
         ];
         let mut amounts = columns.read(fields, uvs);
-        let colors = from.chunks_mut(ROW).zip(to.chunks_mut(ROW));
-        for (roots, (from, to)) in roots.chunks(ROW).zip(colors) {
+        for (number, roots) in roots.chunks(ROW).enumerate() {
             let mut row = Row::default();
             for (k, (root, amounts)) in roots.iter().zip(&mut amounts).enumerate() {
                 row.hairs[k] = root.hair;
@@ -76,12 +76,14 @@ impl Tint {
                 }
             }
             let (mutants, shifts) = row.draw(seed);
+            let first = number * ROW;
             for (k, root) in roots.iter().enumerate().filter(|(k, _)| mutants[*k]) {
-                from[k] = self.mutant_color.at(root.uv);
-                to[k] = from[k];
+                let color = self.mutant_color.at(root.uv);
+                colors.iter_mut().for_each(|at| at[first + k] = color);
             }
-            shift_row(from, &shifts);
-            shift_row(to, &shifts);
+            for at in &mut *colors {
+                shift_row(&mut at[first..first + roots.len()], &shifts);
+            }
         }
     }
 }

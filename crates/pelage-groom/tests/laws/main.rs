@@ -8,6 +8,7 @@ mod fixture;
 mod interpolation;
 mod look;
 mod pose;
+mod ramp;
 mod strand;
 
 use fixture::{Fixture, collect, fibers, kinds, moved, request, strands};

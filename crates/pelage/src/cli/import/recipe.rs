@@ -46,8 +46,6 @@ struct Entry {
     /// What stands behind it.
     from: String,
     line: usize,
-    /// What it waits for, if its stage is not there.
-    waits: Option<String>,
     /// Values of single axes, where the file gives those.
     axes: [Option<f64>; 3],
 }
@@ -73,11 +71,7 @@ pub fn write(settings: &Settings, from: Dialect, name: &str) -> Result<Imported>
     Recipe::parse(&toml, Path::new("groom.toml")).context("the recipe that was made is wrong")?;
     Ok(Imported {
         toml,
-        mapped: making
-            .entries
-            .values()
-            .filter(|entry| entry.waits.is_none())
-            .count(),
+        mapped: making.entries.len(),
         left_out: making.left_out,
     })
 }
@@ -124,7 +118,7 @@ impl Making {
             (Some(_), _) => return Err("expected one number".into()),
             (None, _) => numbers,
         };
-        let (value, waits) = accepted(key, &numbers)?;
+        let value = accepted(key, &numbers)?;
         let converted = match unit {
             Unit::Same => "",
             Unit::Radians => ", from radians",
@@ -133,13 +127,9 @@ impl Making {
             value,
             from: format!("{}, line {}{converted}", written(setting), setting.line),
             line: setting.line,
-            waits: waits.clone(),
             axes,
         };
         let before = self.entries.insert(key.to_owned(), entry);
-        if let Some(waits) = waits {
-            self.leave_out(setting, &format!("{key} waits for {waits}"), true);
-        }
         if let Some(before) = before.filter(|_| axis.is_none()) {
             let text = format!("{key} is set again in line {}", setting.line);
             let (line, known) = (before.line, true);
@@ -169,7 +159,7 @@ impl Making {
         text
     }
 
-    /// The keys of `section`; as comments where they wait.
+    /// The keys of `section`.
     fn section(&self, section: &SectionOutline) -> String {
         let entry = |key: &str| self.entries.get(key);
         let found = section.keys.iter();
@@ -178,16 +168,10 @@ impl Making {
         if found.is_empty() {
             return String::new();
         }
-        let mark = |waits| if waits { "# " } else { "" };
-        let all_wait = found.iter().all(|(_, entry)| entry.waits.is_some());
-        let mut text = format!("\n{}[{}]\n", mark(all_wait), section.key);
-        for (key, entry) in found {
+        let mut text = format!("\n[{}]\n", section.key);
+        for (key, Entry { value, from, .. }) in found {
             let name = key.rsplit_once('.').map_or(key.as_str(), |(_, name)| name);
-            let waits = entry.waits.as_ref();
-            let waits_for = waits.map_or(String::new(), |stage| format!("; waits for {stage}"));
-            let mark = mark(waits.is_some());
-            let Entry { value, from, .. } = entry;
-            text += &format!("{mark}{name} = {value}  # {from}{waits_for}\n");
+            text += &format!("{name} = {value}  # {from}\n");
         }
         text
     }
@@ -226,9 +210,8 @@ fn number(word: &str) -> Option<f64> {
     }
 }
 
-/// `numbers` as the value that `key` takes, and the stage it waits for; or why there is
-/// none.
-fn accepted(key: &str, numbers: &[f64]) -> Result<(String, Option<String>), String> {
+/// `numbers` as the value that `key` takes, or why there is none.
+fn accepted(key: &str, numbers: &[f64]) -> Result<String, String> {
     let mut forms = Vec::new();
     // Several groups with the same number share it.
     if let Some((first, rest)) = numbers.split_first()
@@ -245,10 +228,7 @@ fn accepted(key: &str, numbers: &[f64]) -> Result<(String, Option<String>), Stri
     for form in forms {
         let text = format!("surface.mesh = 'm'\nguides.curves = 'g'\n{key} = {form}\n");
         match Recipe::parse(&text, Path::new("")) {
-            Ok(_) => return Ok((form, None)),
-            Err(error) if error.first().kind == ProblemKind::Unbuilt => {
-                return Ok((form, Some(missing(key))));
-            }
+            Ok(_) => return Ok(form),
             Err(error) => why = better(why, error),
         }
     }
@@ -265,16 +245,6 @@ fn better(why: Option<RecipeError>, other: RecipeError) -> Option<RecipeError> {
         Some(why) if other.first().kind != ProblemKind::OutOfRange => Some(why),
         _ => Some(other),
     }
-}
-
-/// The stage that `key` waits for.
-fn missing(key: &str) -> String {
-    let sections = outline();
-    let mut keys = sections.iter().flat_map(|section| &section.keys);
-    let found = keys
-        .find(|outline| outline.key == key)
-        .and_then(|outline| outline.missing);
-    found.unwrap_or("a later version").to_owned()
 }
 
 /// A number as TOML: whole ones without a point, which every key takes.
