@@ -19,6 +19,8 @@ pub(crate) struct Shapes {
     pub curves: Curves,
     /// Which vertices of each curve stay.
     pub stay: Stay,
+    /// Frames of the roots at rest, where they are displaced.
+    rest_frames: Vec<RootFrame>,
     /// The hairs as the guides at rest have them, where guides are posed.
     at_rest: Curves,
     /// Vertices as they were before a stage.
@@ -61,7 +63,10 @@ impl Plan {
                 middles: &self.rest_middles,
                 ..Moment::REST
             };
-            self.make(capture, &capture.frames, &rest, shapes, clock);
+            let mut posed = std::mem::take(&mut shapes.rest_frames);
+            let frames = self.frames(capture, &rest, &mut posed);
+            self.make(capture, frames, &rest, shapes, clock);
+            shapes.rest_frames = posed;
             self.choose(capture, &shapes.curves, &mut shapes.stay, clock);
         }
         self.make(capture, frames, moment, shapes, clock);

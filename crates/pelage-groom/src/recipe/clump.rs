@@ -28,7 +28,9 @@ section! {
 }
 
 section! {
-    /// A level of clumps. Which clump a hair belongs to is told by where its root is at
+    /// A level of clumps: `p += ((1 - t) root + t tip) (1 - random · ξ) (m - p)`, where m is
+    /// the point of the hair in the middle of the clump that is as far from its root, and ξ
+    /// is drawn for the clump. Which clump a hair belongs to is told by where its root is at
     /// rest, so that it stays when there are more hairs or they stand otherwise.
     pub struct ClumpLevel {
         /// What clumps form around.

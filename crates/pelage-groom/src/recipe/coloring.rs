@@ -24,7 +24,8 @@ words! {
 }
 
 section! {
-    /// The colour of hairs: `[r, g, b]` in linear RGB 0..1, or `"#rrggbb"` in sRGB.
+    /// The colour of hairs: `[r, g, b]` in linear RGB 0..1, or `"#rrggbb"` in sRGB;
+    /// `(1 - t) root + t tip` in `space`.
     pub struct Coloring {
         /// Colour at the root (document 004: Root_Color); a map is added.
         pub root: ColorProperty = ColorProperty::new(BROWN) => Rule::ANY.with_ramp(),
@@ -40,7 +41,7 @@ section! {
 }
 
 section! {
-    /// Hairs of another colour, such as grey ones.
+    /// Hairs of another colour, such as grey ones: those with `ξ < percent / 100`.
     pub struct Mutant {
         /// How many hairs, in per cent (document 004: Percent_Mutant_Hair).
         pub percent: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 100.0).unit("per cent"),
@@ -51,7 +52,8 @@ section! {
 }
 
 section! {
-    /// Colours that differ at random from hair to hair.
+    /// Colours that differ at random from hair to hair: hue, saturation and value (HSV) less
+    /// `amount · 2 (ξ - ½)`, with a ξ each.
     pub struct Variation {
         /// Largest shift of the hue, in degrees (document 004: Hue_Variation).
         pub hue: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 180.0).degrees(),

@@ -5,7 +5,9 @@ use super::property::ScalarProperty;
 use super::section::section;
 
 section! {
-    /// Hairs that stray from the others, each its own way, and keep their length.
+    /// Hairs that stray from the others, each its own way, and keep their length: those with
+    /// `ξ < percent / 100`, by `p += strength · length · t² · d`, where d is a unit vector
+    /// drawn for the hair, away from the skin.
     pub struct Flyaway {
         /// How many hairs do, in per cent.
         pub percent: ScalarProperty = ScalarProperty::new(0.0)

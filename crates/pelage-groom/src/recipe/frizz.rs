@@ -5,7 +5,9 @@ use super::property::ScalarProperty;
 use super::section::section;
 
 section! {
-    /// Noise that bends a hair as a whole (document 004, 2.2.5).
+    /// Noise that bends a hair as a whole (document 004, 2.2.5):
+    /// `p += F · min(4 (t - t²) root + t² tip, max(root, tip))`, where F is
+    /// `N(frequency · root at rest)` with its part along the normal turned into the skin.
     pub struct Frizz {
         /// Frequencies of the noise over the rest roots, along x, y and z
         /// (document 004: Frizz_X_Frequency and so on).
@@ -26,7 +28,8 @@ section! {
 
 section! {
     /// Frizz that moves with time. Without `frizz.root` or `frizz.tip` there is
-    /// nothing to move.
+    /// nothing to move: `F = (1 - amount) N(x) + amount N(x + speed · time · direction)`,
+    /// with the time in frames.
     pub struct FrizzAnimation {
         /// How much of the frizz moves (document 004: Frizz_Anim).
         pub amount: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 1.0),

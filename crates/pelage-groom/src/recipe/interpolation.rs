@@ -30,7 +30,9 @@ words! {
 }
 
 section! {
-    /// How guides shape the hairs between them.
+    /// How guides shape the hairs between them: with d the distance of a guide's root at rest
+    /// and r that of the nearest guide that is not taken, a guide weighs `((r - d) / (r d))²`
+    /// (document 004, 2.2.4), and the hair is the weighted mean of its guides.
     pub struct Interpolation {
         /// Number of guides that shape a hair (document 004:
         /// Interpolation_Samples); a group with fewer uses all it has.

@@ -5,7 +5,8 @@ use super::property::ScalarProperty;
 use super::section::section;
 
 section! {
-    /// Noise along each hair (document 004, 2.2.5).
+    /// Noise along each hair (document 004, 2.2.5):
+    /// `p += N(frequency · p at rest) · ((1 - t) root + t tip)`.
     pub struct Kink {
         /// Frequencies of the noise along x, y and z (document 004:
         /// Kink_X_Frequency and so on).

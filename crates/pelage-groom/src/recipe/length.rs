@@ -5,7 +5,7 @@ use super::property::ScalarProperty;
 use super::section::section;
 
 section! {
-    /// Hairs cut off.
+    /// Hairs cut off: what is beyond t = `length` goes, and what stays keeps its place.
     pub struct Cut {
         /// The part of a hair that stays (document 004: Cut_Map): 1 all of it, 0
         /// removes the hair.
@@ -14,7 +14,7 @@ section! {
 }
 
 section! {
-    /// Hairs scaled about their roots.
+    /// Hairs scaled about their roots: `p *= amount · (1 - random · ξ)`.
     pub struct Scale {
         /// Factor of the length (document 004: Scale).
         pub amount: ScalarProperty = ScalarProperty::new(1.0) => Rule::at_least(0.0),

@@ -5,7 +5,7 @@ use super::property::ScalarProperty;
 use super::section::section;
 
 section! {
-    /// Opacity of hairs.
+    /// Opacity of hairs: `(1 - t) root + t tip`.
     pub struct Opacity {
         /// Opacity at the root (document 004: Root_Opacity).
         pub root: ScalarProperty = ScalarProperty::new(1.0) => Rule::between(0.0, 1.0).with_ramp(),
@@ -15,7 +15,7 @@ section! {
 }
 
 section! {
-    /// Width of hairs: the full diameter, in units of the mesh.
+    /// Width of hairs: the full diameter, in units of the mesh; `(1 - t) root + t tip`.
     pub struct Width {
         /// Width at the root (document 004: Root_Thickness).
         pub root: ScalarProperty = ScalarProperty::new(0.02)

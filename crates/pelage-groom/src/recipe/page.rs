@@ -13,7 +13,10 @@ pub fn properties_text() -> String {
     for section in outline() {
         let does = &section.does;
         // Writing to a String cannot fail.
-        let _ = write!(text, "\n## `[{}]`\n\n{does}\n", section.key);
+        let _ = match section.key.strip_suffix("[]") {
+            Some(list) => write!(text, "\n## `[[{list}]]`\n\n{does}\n"),
+            None => write!(text, "\n## `[{}]`\n\n{does}\n", section.key),
+        };
         if section.keys.is_empty() {
             continue;
         }

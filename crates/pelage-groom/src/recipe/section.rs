@@ -123,7 +123,8 @@ macro_rules! table {
                 generator: &mut schemars::SchemaGenerator,
                 tell: &mut dyn FnMut($crate::recipe::outline::Told),
             ) {
-                let _ = rule;
+                let _ = (rule, doc);
+                let doc = concat!($($doc, "\n"),*);
                 tell($crate::recipe::outline::Told::Section { key: key.to_owned(), doc });
                 $(
                     let name = $crate::recipe::reader::join(key, stringify!($field));

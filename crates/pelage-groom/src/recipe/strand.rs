@@ -5,7 +5,10 @@ use super::property::ScalarProperty;
 use super::section::section;
 
 section! {
-    /// Each hair a bundle of fibres around it (document 004, 2.2.7).
+    /// Each hair a bundle of fibres around it (document 004, 2.2.7): with the normal N and
+    /// the binormal B of the hair at a vertex, and a place (x, y) in the unit disc for each
+    /// fibre, `p += splay (x' N + aspect y' B) + offset t³ N`, where (x', y') is (x, y) turned
+    /// by `twist · t`; then the fibre is scaled about the root by `1 - randomize · ξ`.
     pub struct Strand {
         /// Fibres a hair (document 004: Multi_Strand_Count); 0 leaves hairs single.
         pub count: u32 = 0 => Rule::at_least(0.0),
@@ -27,7 +30,8 @@ section! {
 }
 
 section! {
-    /// Largest distance of fibres from the hair, in units of the mesh.
+    /// Largest distance of fibres from the hair, in units of the mesh:
+    /// `w · (root before the middle, tip behind it) + (1 - w) · center` with `w = 4 (t - ½)²`.
     pub struct Splay {
         /// Distance at the root (document 004: Root_Splay). A ramp here tells the
         /// whole hair; leave `center` and `tip` out.

@@ -85,6 +85,7 @@ use Subject::{Fur, Strands, Tuft};
 
 const OFF_AND_ON: &[&str] = &["false", "true"];
 const FRIZZED: &[(&str, &str)] = &[("frizz.tip", "0.25")];
+const UNEVEN: &[(&str, &str)] = &[("frizz.frequency", "[4, 4, 4]")];
 const MOVING: &[(&str, &str)] = &[
     ("frizz.tip", "0.25"),
     ("frizz.animation.amount", "1.0"),
@@ -155,7 +156,13 @@ pub const STRIPS: &[Strip] = &[
         &["'nearest'", "'inverse-distance'", "'natural-neighbor'"],
     )
     .with(&[("guides.grow.count", "40")]),
-    strip("interpolation.space", Tuft, &["'vertices'", "'frenet'"]).with(CURLY),
+    strip("interpolation.space", Tuft, &["'vertices'", "'frenet'"]).with(&[
+        ("guides.grow.count", "6"),
+        ("guides.grow.curl.radius", "0.08"),
+        ("guides.grow.curl.turns", "3.0"),
+        ("groups.segments", "32"),
+        ("hair.count", "60"),
+    ]),
     strip("interpolation.facing", Fur, OFF_AND_ON).with(&[("guides.grow.count", "40")]),
     strip("cut.length", Tuft, &["0.25", "0.5", "0.75", "1.0"]),
     strip("scale.amount", Fur, &["0.25", "0.5", "1.0", "1.5"]),
@@ -166,9 +173,10 @@ pub const STRIPS: &[Strip] = &[
         &["[1, 1, 1]", "[3, 3, 3]", "[9, 9, 9]", "[50, 50, 50]"],
     )
     .with(FRIZZED),
-    strip("frizz.root", Tuft, &["0.0", "0.1", "0.2", "0.4"]),
-    strip("frizz.tip", Tuft, &["0.0", "0.1", "0.25", "0.5"]),
-    strip("frizz.preserve_length", Tuft, OFF_AND_ON).with(&[("frizz.tip", "0.6")]),
+    strip("frizz.root", Tuft, &["0.0", "0.1", "0.2", "0.4"]).with(UNEVEN),
+    strip("frizz.tip", Tuft, &["0.0", "0.1", "0.25", "0.5"]).with(UNEVEN),
+    strip("frizz.preserve_length", Tuft, OFF_AND_ON)
+        .with(&[("frizz.tip", "0.6"), ("frizz.frequency", "[4, 4, 4]")]),
     strip(
         "frizz.animation.amount",
         Tuft,

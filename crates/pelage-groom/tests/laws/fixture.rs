@@ -41,12 +41,15 @@ const SHARED: &str = "interpolation = { method = 'natural-neighbor', facing = tr
     color.mutant = { percent = 20.0 }
     color.variation = { hue = 20.0, saturation = 0.1, value = 0.1 }";
 
-/// Multi-strands in clumps, with everything that shapes them.
-const STRANDS: &str = "frizz = { tip = 0.2, animation = { amount = 0.5, speed = 1.0 } }
-    kink = { tip = 0.05, frequency = [9, 9, 9] }
+/// Everything there is.
+const EVERYTHING: &str = "frizz = { tip = 0.2, animation = { amount = 0.5, speed = 1.0 } }
+    kink = { root = { ramp = [[0, 0], [0.3, 0.05]] }, frequency = [9, 9, 9] }
     cut.length = { map = 'length.png' }
     output.skip_threshold = 0.95
-    interpolation.space = 'frenet'
+    roots.displacement = { value = 0.1, map = 'length.png' }
+    interpolation = { space = 'frenet', method = 'natural-neighbor', facing = true }
+    opacity = { root = { ramp = [[0, 1.0], [0.5, 0.7], [1, 0.1]] } }
+    width = { root = 0.01, tip = { value = 0.001, map = 'length.png' } }
     [strand]
     count = 3
     splay = { root = 0.01, center = { value = 0.05, map = 'length.png' }, tip = 0.02 }
@@ -81,7 +84,7 @@ pub fn kinds() -> impl Iterator<Item = Fixture<'static>> {
     let patterns = ["roots.pattern = 'random'", "roots.pattern = 'blue-noise'"];
     let [random, blue_noise] = patterns;
     let roots = ["", DISPLACED, NOISY, random, blue_noise];
-    let all = roots.into_iter().chain([SHARED, FRENET, STRANDS]);
+    let all = roots.into_iter().chain([SHARED, FRENET, EVERYTHING]);
     all.map(|more| Fixture {
         more,
         ..Fixture::default()

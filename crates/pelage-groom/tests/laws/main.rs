@@ -119,7 +119,7 @@ fn law_4_a_rigid_motion_moves_every_hair_rigidly() {
             .unwrap();
         let hairs: Vec<u64> = (0..1000).collect();
         let posed = strands(&plan, &hairs, Some(&pose));
-        assert_eq!(rest.offsets, posed.offsets);
+        assert!(rest.offsets == posed.offsets, "{}", fixture.more);
         for (p, q) in rest.points.iter().zip(&posed.points) {
             let expected = turn * Vec3::from(*p) + shift;
             assert!(expected.distance(Vec3::from(*q)) < 4e-5, "{expected} {q:?}");
@@ -142,28 +142,25 @@ fn law_5_a_plan_that_was_made_gives_sound_strands() {
 
 #[test]
 fn law_6_bounds_are_a_sink_and_hold_the_curves() {
-    let plan = plan();
-    let mut bounds = BoundsSink::default();
-    let request = request(0..1000, 2);
-    generate(
-        &plan,
-        &request,
-        &mut |_| Ok(Pose::default()),
-        &mut bounds,
-        &mut |_| true,
-    )
-    .unwrap();
-    let all = bounds.all();
-    let strands = collect(&plan, 0..1000, 1);
-    for strand in 0..strands.len() {
-        let points = strands.strand_points(strand);
-        for i in 0..points.len() - 1 {
-            let window = catmull_rom::window(points, i);
-            for k in 0..=1024 / (points.len() - 1) {
-                let t = k as f32 / (1024 / (points.len() - 1)) as f32;
-                let p = catmull_rom::position(window, t);
+    for fixture in kinds() {
+        let (plan, more) = (fixture.plan(), fixture.more);
+        let mut bounds = BoundsSink::default();
+        let mut still = |_| Ok(Pose::default());
+        let request = request(0..1000, 2);
+        generate(&plan, &request, &mut still, &mut bounds, &mut |_| true).unwrap();
+        let all = bounds.all();
+        let strands = collect(&plan, 0..1000, 1);
+        for strand in 0..strands.len() {
+            let points = strands.strand_points(strand);
+            let pieces = points.len() - 1;
+            for k in 0..1024 {
+                let along = k as f32 / 1023.0 * pieces as f32;
+                let piece = (along as usize).min(pieces - 1);
+                let window = catmull_rom::window(points, piece);
+                let p = catmull_rom::position(window, along - piece as f32);
                 for axis in 0..3 {
-                    assert!(p[axis] >= all.min[axis] - 1e-6 && p[axis] <= all.max[axis] + 1e-6);
+                    let inside = all.min[axis] - 1e-6..=all.max[axis] + 1e-6;
+                    assert!(inside.contains(&p[axis]), "{more}");
                 }
             }
         }
@@ -491,6 +488,46 @@ fn hairs_too_short_for_their_coordinates_are_left_out_and_counted() {
         assert_eq!(report.dropped.without_length, 5000 - left);
         assert!(validate(&sink.strands).is_empty());
     }
+}
+
+#[test]
+fn every_property_at_its_neutral_value_changes_no_bit() {
+    let plain = collect(&plan(), 0..2000, 2);
+    for neutral in [
+        "roots.displacement = 0",
+        "interpolation = { guides = 3, method = 'inverse-distance', facing = false }",
+        "interpolation.space = 'vertices'",
+        "cut.length = { value = 1.0, map = 'one.png' }",
+        "frizz = { root = 0, tip = 0, frequency = [5, 5, 5], preserve_length = true }",
+        "frizz.animation = { amount = 1, speed = 2 }",
+        "kink = { root = 0, tip = 0, frequency = [50, 50, 50], preserve_length = true }",
+        "clump.levels = []",
+        "clump.levels = [{ size = 0.2, root = 0, tip = 0, random = 1 }]",
+        "flyaway = { percent = 0, strength = 2 }",
+        "flyaway = { percent = 50, strength = 0 }",
+        "color.mutant = { percent = 0, color = [1, 0, 0] }",
+        "color.variation = { hue = 0, saturation = 0, value = 0 }",
+        "opacity = { root = 1, tip = { value = 1.0, map = 'one.png' } }",
+        "strand = { count = 0, twist = 90, aspect = 3, offset = 2, randomize = 1 }",
+        "strand.splay = { root = 1, center = 1, tip = 1 }",
+        "output.skip_threshold = 1.0",
+        "voxels.resolution = [3, 4, 5]",
+    ] {
+        let fixture = Fixture {
+            more: neutral,
+            ..Fixture::default()
+        };
+        assert!(plain == collect(&fixture.plan(), 0..2000, 2), "{neutral}");
+    }
+    let bare = Fixture {
+        flat: true,
+        ..Fixture::default()
+    };
+    let scaled = Fixture {
+        more: "scale = { amount = { value = 1.0, map = 'one.png' }, random = 0 }",
+        ..bare
+    };
+    assert!(collect(&bare.plan(), 0..2000, 2) == collect(&scaled.plan(), 0..2000, 2));
 }
 
 #[test]

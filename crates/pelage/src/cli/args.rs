@@ -102,7 +102,7 @@ pub struct GalleryArgs {
     #[arg(long, value_name = "KEY")]
     pub only: Vec<String>,
     /// Size of a picture; a strip has up to four.
-    #[arg(long, default_value = "240x240", value_parser = size, value_name = "WxH")]
+    #[arg(long, default_value = "200x200", value_parser = size, value_name = "WxH")]
     pub size: (u32, u32),
     /// Threads to use; 0 is one a core.
     #[arg(long, default_value_t = 0)]

@@ -134,7 +134,7 @@ fn surface(subject: Subject) -> Result<PolygonMesh> {
 pub fn camera(subject: Subject) -> Camera {
     let (from, to, fov) = match subject {
         Subject::Fur => ([2.2, 1.4, 4.2], [0.0, 0.0, 0.0], 33.0),
-        Subject::Tuft | Subject::Strands => ([0.9, 1.5, 3.3], [0.08, 0.4, 0.0], 24.0),
+        Subject::Tuft | Subject::Strands => ([1.0, 1.5, 3.4], [0.16, 0.42, 0.0], 26.0),
     };
     Camera {
         from,
