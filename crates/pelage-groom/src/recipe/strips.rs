@@ -83,6 +83,9 @@ impl Strip {
 
 use Subject::{Fur, Strands, Tuft};
 
+/// Few guides that lean as patches of a map say.
+const COARSE: &[(&str, &str)] = &[("guides.grow.count", "40"), UNLIKE];
+const UNLIKE: (&str, &str) = ("guides.grow.lean", "{ value = 110.0, map = 'patches.png' }");
 const OFF_AND_ON: &[&str] = &["false", "true"];
 const FRIZZED: &[(&str, &str)] = &[("frizz.tip", "0.25")];
 const UNEVEN: &[(&str, &str)] = &[("frizz.frequency", "[4, 4, 4]")];
@@ -105,7 +108,7 @@ const SPREAD: &[(&str, &str)] = &[
 
 /// Every strip, in the order of the properties.
 pub const STRIPS: &[Strip] = &[
-    strip("guides.grow.count", Fur, &["3", "30", "300", "3000"]),
+    strip("guides.grow.count", Fur, &["3", "30", "300", "3000"]).with(&[UNLIKE]),
     strip("guides.grow.seed", Tuft, &["0", "1", "2", "3"]),
     strip("guides.grow.length", Fur, &["0.1", "0.2", "0.4", "0.8"]),
     strip("guides.grow.segments", Tuft, &["1", "2", "4", "16"]).with(CURLY),
@@ -149,13 +152,13 @@ pub const STRIPS: &[Strip] = &[
         ("guides.grow.curl.radius", "0.06"),
         ("guides.grow.curl.turns", "4.0"),
     ]),
-    strip("interpolation.guides", Fur, &["1", "2", "3", "12"]).with(&[("guides.grow.count", "40")]),
+    strip("interpolation.guides", Fur, &["1", "2", "3", "12"]).with(COARSE),
     strip(
         "interpolation.method",
         Fur,
         &["'nearest'", "'inverse-distance'", "'natural-neighbor'"],
     )
-    .with(&[("guides.grow.count", "40")]),
+    .with(COARSE),
     strip("interpolation.space", Tuft, &["'vertices'", "'frenet'"]).with(&[
         ("guides.grow.count", "6"),
         ("guides.grow.curl.radius", "0.08"),
@@ -163,7 +166,7 @@ pub const STRIPS: &[Strip] = &[
         ("groups.segments", "32"),
         ("hair.count", "60"),
     ]),
-    strip("interpolation.facing", Fur, OFF_AND_ON).with(&[("guides.grow.count", "40")]),
+    strip("interpolation.facing", Fur, OFF_AND_ON).with(COARSE),
     strip("cut.length", Tuft, &["0.25", "0.5", "0.75", "1.0"]),
     strip("scale.amount", Fur, &["0.25", "0.5", "1.0", "1.5"]),
     strip("scale.random", Tuft, &["0.0", "0.33", "0.67", "1.0"]),
@@ -218,8 +221,12 @@ pub const STRIPS: &[Strip] = &[
     .line_is("clump.levels = [{ around = {} }]"),
     strip("clump.levels[].size", Fur, &["0.05", "0.1", "0.2", "0.4"])
         .line_is("clump.levels = [{ size = {} }]"),
-    strip("clump.levels[].map", Fur, &["'patches.png'", "'spots.png'"])
-        .line_is("clump.levels = [{ around = 'map', map = {} }]"),
+    strip(
+        "clump.levels[].map",
+        Fur,
+        &["'patches.png'", "'gradient.png'"],
+    )
+    .line_is("clump.levels = [{ around = 'map', map = {} }]"),
     strip("clump.levels[].root", Fur, &["0.0", "0.33", "0.67", "1.0"])
         .line_is("clump.levels = [{ size = 0.15, tip = 0.8, root = {} }]"),
     strip("clump.levels[].tip", Fur, &["0.0", "0.33", "0.67", "1.0"])
@@ -235,7 +242,7 @@ pub const STRIPS: &[Strip] = &[
     strip("flyaway.percent", Fur, &["0.0", "2.0", "10.0", "50.0"])
         .with(&[("clump.levels", "[{ size = 0.12 }]")]),
     strip("flyaway.strength", Fur, &["0.0", "0.3", "1.0", "3.0"]).with(&[
-        ("flyaway.percent", "5.0"),
+        ("flyaway.percent", "15.0"),
         ("clump.levels", "[{ size = 0.12 }]"),
     ]),
     strip(

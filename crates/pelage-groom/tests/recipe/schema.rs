@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use pelage_groom::recipe::{Recipe, properties_text, schema, schema_text};
+use pelage_groom::recipe::{Recipe, STRIPS, properties_text, schema, schema_text};
 
 use super::corpus::{examples, folder, is_checked_in, recipes};
 
@@ -29,6 +29,19 @@ fn the_checked_in_page_of_properties_is_up_to_date() {
         "{} is old: run the tests with PELAGE_BLESS=1",
         path.display()
     );
+}
+
+#[test]
+fn the_strips_of_the_page_of_properties_are_checked_in_and_no_others() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/gallery");
+    let files = std::fs::read_dir(folder).unwrap();
+    let mut found: Vec<String> = files
+        .map(|file| file.unwrap().file_name().into_string().unwrap())
+        .collect();
+    let mut expected: Vec<String> = STRIPS.iter().map(|strip| strip.file()).collect();
+    found.sort();
+    expected.sort();
+    assert_eq!(found, expected, "run pelage gallery -o docs/gallery");
 }
 
 #[test]

@@ -78,6 +78,8 @@ fn measuring_generation_writes_the_page_the_chart_and_data_of_every_scene() {
         ("plain", 16),
         ("five maps", 6),
         ("five maps", 16),
+        ("strands", 6),
+        ("strands", 16),
     ];
     assert_eq!(scenes, expected.into());
 }

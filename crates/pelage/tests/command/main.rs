@@ -67,6 +67,85 @@ fn a_posed_surface_carries_its_hair_and_frames_are_samples() {
 }
 
 #[test]
+fn posed_guides_move_hair_frame_by_frame_from_a_sequence_or_time_samples() {
+    let folder = Folder::new();
+    folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let guides = |shift: f32| {
+        let root = |x: f32, y: f32| format!("v {x} {y} 0\nv {x} {y} 1\nv {} {y} 2\n", x + shift);
+        let roots = root(0.2, 0.2) + &root(0.6, 0.2) + &root(0.2, 0.6);
+        roots + "l 1 2 3\nl 4 5 6\nl 7 8 9\n"
+    };
+    folder.write("g.obj", &guides(0.0));
+    folder.write("g.0001.obj", &guides(0.0));
+    folder.write("g.0002.obj", &guides(0.5));
+    let recipe = |posed: &str| {
+        format!(
+            "surface.mesh = 't.obj'\nhair.count = 50\n\
+             [guides]\ncurves = 'g.obj'\nposed = '{posed}'\n"
+        )
+    };
+    folder.write("groom.toml", &recipe("g.####.obj"));
+    let rest = folder.arrays("one.npz", &["--frame", "1"]);
+    let bent = folder.arrays("two.npz", &["--frame", "2"]);
+    for i in 0..50 {
+        let (rest, bent) = (rest.strand_points(i), bent.strand_points(i));
+        assert_eq!(rest[0], bent[0]);
+        let tip = bent[bent.len() - 1] - rest[rest.len() - 1];
+        assert!((tip.x - 0.5).abs() < 1e-4 && tip.y.abs() < 1e-4, "{tip}");
+    }
+    let words = fails(&["generate", &folder.path("groom.toml"), "-o", "null"]);
+    assert!(
+        words.contains("guides.posed") && words.contains("--frames"),
+        "{words}"
+    );
+
+    // Hair of both frames in one file are guides with time samples.
+    folder.generate("hair.usda", &["--frames", "1-2"]);
+    folder.write(
+        "groom.toml",
+        &recipe("hair.usda").replace("'g.obj'", "'one.npz'"),
+    );
+    let again = folder.arrays("again.npz", &["--frame", "2"]);
+    let tips = |strands: &pelage::StrandBuffer| {
+        let all = 0..strands.len();
+        let tip = |i| strands.strand_points(i).last().unwrap().x;
+        all.map(tip).sum::<f32>() / strands.len() as f32
+    };
+    assert!((tips(&again) - tips(&rest) - 0.5).abs() < 0.01);
+
+    folder.write("g.0002.obj", "v .2 .2 0\nv .2 .2 1\nl 1 2\n");
+    folder.write("groom.toml", &recipe("g.####.obj"));
+    let recipe = folder.path("groom.toml");
+    let words = fails(&["generate", &recipe, "-o", "null", "--frame", "2"]);
+    assert!(words.contains("1 guides, but 3 at rest"), "{words}");
+}
+
+#[test]
+fn the_gallery_draws_the_strips_that_are_asked_for() {
+    let folder = Folder::new();
+    let gallery = folder.path("gallery");
+    let small = [
+        "--size",
+        "16x16",
+        "--only",
+        "width.tip",
+        "--only",
+        "strand.count",
+    ];
+    pelage(&[&["gallery", "-o", &gallery][..], &small].concat());
+    for name in ["width.tip", "strand.count"] {
+        let strip = folder.bytes(&format!("gallery/{name}.jpg"));
+        let strip = image::load_from_memory(&strip).unwrap();
+        assert_eq!((strip.width(), strip.height()), (4 * 20 - 4, 16));
+    }
+    let words = fails(&["gallery", "-o", &gallery, "--only", "width.tipp"]);
+    assert!(
+        words.contains("width.tipp") && words.contains("width.tip,"),
+        "{words}"
+    );
+}
+
+#[test]
 fn a_pose_of_other_topology_is_refused_with_the_place() {
     let folder = Folder::with_ball();
     folder.write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -44,7 +44,7 @@ impl Row {
             scene: scene.name,
             hairs: scene.plan.count(),
             cvs: scene.segments + 1,
-            fibers: 1,
+            fibers: scene.fibers,
             threads,
             seconds_cold: cold.seconds,
             seconds_warm,
@@ -150,7 +150,7 @@ pub fn bytes_of_a_hair(scene: &Scene) -> Result<f64> {
         &mut strands,
         clock,
     );
-    Ok(strands.bytes() as f64 / strands.len().max(1) as f64)
+    Ok(strands.bytes() as f64 / capture.len().max(1) as f64)
 }
 
 /// Bytes a second, read and written, of `threads` threads that each copy a large array.

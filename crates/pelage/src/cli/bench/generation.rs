@@ -16,10 +16,11 @@ use std::fmt::Write;
 /// What the scenes and columns of the page are.
 const PREFACE: &str = "
 A ball of 9,024 triangles with 1,000 guides, of which 3 shape a hair; hairs of 5 and of 15
-segments, one fibre each, into the null sink. `plain` sets scale, frizz, kink, mutant hair, the variation of colour, and colour,
+segments into the null sink: a million single hairs, or 200,000 of 5 fibres each in the
+scenes `strands`. `plain` sets scale, frizz, kink, mutant hair, the variation of colour, and colour,
 opacity and width from root to tip, and no map; `five maps` has maps of 1024² texels for density, scale, colour, opacity and
-width, as document 004 compares (section 4.2). Its scenes of multi-strands (200,000 hairs
-of 5 fibres) will stand here when multi-strands do. *Cold* is everything from roots to the
+width, as document 004 compares (section 4.2). `strands` is plain too, with splay, twist and
+shortening. *Cold* is everything from roots to the
 sink; *warm* keeps what was captured of the rest pose, as the frames of an animation can,
 and evaluates a pose. The best of five runs counts. *Of copying* is the bytes handed to the
 sink a second, over those that as many threads read and write when they copy plain memory,
@@ -30,8 +31,8 @@ little where others have the second core.
 
 Of the steps of document 004's tables 4.3 and 4.4, *generate sample* and *hair root* are
 `roots`; *interpolate* is `weights` and `interpolate`; *frizz*, *kink* and *curve frame* are
-`frizz`, `kink` and `frames`; *other properties* are `maps` and `look`; *finalizing hair*
-is `thin` and `world`; *output hair* is `sink`.
+`frizz`, `kink` and `frames`; *fiber from a single hair* is `strand`; *other properties* are
+`maps` and `look`; *finalizing hair* is `thin` and `world`; *output hair* is `sink`.
 ";
 
 /// Everything that was measured.
@@ -143,13 +144,13 @@ impl Results {
     }
 
     fn write_seconds(&self, text: &mut String) -> std::fmt::Result {
-        let hairs = self.rows.first().map_or(0, |row| row.hairs);
-        writeln!(text, "## {} hairs\n", grouped(hairs))?;
+        let curves = self.rows.first().map_or(0, |row| row.hairs);
+        writeln!(text, "## {} curves\n", grouped(curves))?;
         writeln!(
             text,
-            "| scene | CVs | threads | cold, s | M hairs/s | of copying | warm, s | M hairs/s | \
+            "| scene | hairs | fibres | CVs | threads | cold, s | M hairs/s | of copying | warm, s | M hairs/s | \
             of copying | peak memory, MB |\n|{}",
-            "---|".repeat(10)
+            "---|".repeat(12)
         )?;
         for (row, bytes) in self.rows.iter().zip(&self.bytes) {
             let rates = |seconds: f64| {
@@ -162,8 +163,10 @@ impl Results {
                 .map_or("?".into(), |b| format!("{:.0}", b as f64 / 1e6));
             writeln!(
                 text,
-                "| {} | {} | {} | {} | {} | {peak} |",
+                "| {} | {} | {} | {} | {} | {} | {} | {peak} |",
                 row.scene,
+                grouped(row.hairs),
+                row.fibers,
                 row.cvs,
                 row.threads,
                 rates(row.seconds_cold),

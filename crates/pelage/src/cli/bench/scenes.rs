@@ -40,6 +40,14 @@ const PROPERTIES: [(&str, &str, Option<&str>); 16] = [
     ("width.tip", "0.0", None),
 ];
 
+/// What the scenes of multi-strands have beside, and how many hairs they have fewer.
+const STRANDS: &str = "strand.count = 5
+strand.splay = { root = 0.002, center = 0.006, tip = 0.004 }
+strand.twist = 90
+strand.randomize = 0.2
+";
+const FIBERS: u32 = 5;
+
 /// Segments of the hairs of document 004's tables.
 const SEGMENTS: [u32; 2] = [5, 15];
 
@@ -47,28 +55,35 @@ const SEGMENTS: [u32; 2] = [5, 15];
 pub struct Scene {
     pub name: &'static str,
     pub segments: u32,
+    /// Fibres of a hair; 1 where hairs are single.
+    pub fibers: u32,
     pub plan: Plan,
 }
 
-/// All scenes, of `hairs` hairs, with maps of `map_size`² texels.
+/// All scenes, of `hairs` hairs or as many fibres, with maps of `map_size`² texels.
 pub fn scenes(hairs: u64, map_size: u32) -> Result<Vec<Scene>> {
-    let kinds = [("plain", None), ("five maps", Some(map_size))];
-    kinds
+    let kinds = [
+        ("plain", None, 1),
+        ("five maps", Some(map_size), 1),
+        ("strands", None, FIBERS),
+    ];
+    let all = kinds
         .into_iter()
-        .flat_map(|kind| SEGMENTS.map(|segments| (kind, segments)))
-        .map(|((name, maps), segments)| {
-            let plan = plan(hairs, segments, maps);
-            Ok(Scene {
-                name,
-                segments,
-                plan: plan.with_context(|| format!("the scene {name:?}"))?,
-            })
+        .flat_map(|kind| SEGMENTS.map(|segments| (kind, segments)));
+    all.map(|((name, maps, fibers), segments)| {
+        let plan = plan(hairs / fibers as u64, segments, maps, fibers);
+        Ok(Scene {
+            name,
+            segments,
+            fibers,
+            plan: plan.with_context(|| format!("the scene {name:?}"))?,
         })
-        .collect()
+    })
+    .collect()
 }
 
-fn plan(hairs: u64, segments: u32, map_size: Option<u32>) -> Result<Plan> {
-    let recipe = recipe(hairs, segments, map_size.is_some())?;
+fn plan(hairs: u64, segments: u32, map_size: Option<u32>, fibers: u32) -> Result<Plan> {
+    let recipe = recipe(hairs, segments, map_size.is_some(), fibers)?;
     let ball = pelage::examples::example("ball").context("the ball is missing")?;
     let mut images = Images::new();
     if let Some(size) = map_size {
@@ -86,8 +101,11 @@ fn plan(hairs: u64, segments: u32, map_size: Option<u32>) -> Result<Plan> {
     })?)
 }
 
-fn recipe(hairs: u64, segments: u32, maps: bool) -> Result<Recipe> {
+fn recipe(hairs: u64, segments: u32, maps: bool, fibers: u32) -> Result<Recipe> {
     let mut text = format!("{SURFACE}hair.count = {hairs}\ngroups.segments = {segments}\n");
+    if fibers > 1 {
+        text += STRANDS;
+    }
     for (key, value, map) in PROPERTIES {
         // Writing to a String cannot fail.
         let _ = match map.filter(|_| maps) {

@@ -143,3 +143,20 @@ pub fn camera(subject: Subject) -> Camera {
         fov,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pelage::groom::recipe::STRIPS;
+
+    #[test]
+    fn the_recipe_of_every_picture_is_right() {
+        for strip in STRIPS {
+            for value in strip.values {
+                let text = recipe(strip, value);
+                let read = Recipe::parse(&text, Path::new("gallery.toml"));
+                assert!(read.is_ok(), "{text}\n{}", read.unwrap_err());
+            }
+        }
+    }
+}
