@@ -63,6 +63,18 @@ impl<const N: usize> Profile<N> {
     }
 }
 
+impl Profile<2> {
+    /// The values at each of `ts`, straight lines without a ramp.
+    #[inline(always)]
+    pub(crate) fn row<const M: usize>(&self, values: [f32; 2], ts: &[f32; M]) -> [f32; M] {
+        // The choice is made once, so that the row is done side by side.
+        match &self.ramp {
+            None => ts.map(|t| line(values, t)),
+            Some(ramp) => ts.map(|t| values[0] * on(ramp, t)),
+        }
+    }
+}
+
 /// The value of `ramp` at `t`: straight lines between its points, and the first and the
 /// last point's value beyond them.
 fn on(ramp: &Ramp<f32>, t: f32) -> f32 {

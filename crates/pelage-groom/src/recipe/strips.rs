@@ -221,12 +221,8 @@ pub const STRIPS: &[Strip] = &[
     .line_is("clump.levels = [{ around = {} }]"),
     strip("clump.levels[].size", Fur, &["0.05", "0.1", "0.2", "0.4"])
         .line_is("clump.levels = [{ size = {} }]"),
-    strip(
-        "clump.levels[].map",
-        Fur,
-        &["'patches.png'", "'gradient.png'"],
-    )
-    .line_is("clump.levels = [{ around = 'map', map = {} }]"),
+    strip("clump.levels[].map", Fur, &["'patches.png'"])
+        .line_is("clump.levels = [{ around = 'map', map = {} }]"),
     strip("clump.levels[].root", Fur, &["0.0", "0.33", "0.67", "1.0"])
         .line_is("clump.levels = [{ size = 0.15, tip = 0.8, root = {} }]"),
     strip("clump.levels[].tip", Fur, &["0.0", "0.33", "0.67", "1.0"])

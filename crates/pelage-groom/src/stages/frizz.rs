@@ -3,9 +3,10 @@
 //! Source: document 004, section 2.2.5, with its errata: the animated part moves the
 //! domain of the noise (`frequency · root + speed · time · direction`) instead of
 //! multiplying it. `p += F · min(root · 4(t - t²) + tip · t², max(root, tip))` with
-//! t = i / segments, or by a ramp in the place of that amount; F is three noises of the
-//! root at rest, and its part along the normal points into the skin, so that frizz does not lengthen hair. The root stays.
-//! Local space, unit of the mesh; frequencies per unit of the mesh, time in frames.
+//! t = i / segments, or by a ramp in the place of that amount; F is three noises of the root
+//! at rest, and its part along the normal points into the skin, so that frizz does not
+//! lengthen hair. The root stays. Local space, unit of the mesh; frequencies per unit of the
+//! mesh, time in frames.
 
 use crate::PlanError;
 use crate::maps::{FieldMaker, ScalarField};

@@ -2,8 +2,9 @@
 //!
 //! Source: document 004, section 2.2.5: `p += K · ((1 - t) · root + t · tip)` with
 //! t = i / segments, or by a ramp in the place of that amount; K is three noises of the
-//! vertex where it stands on the surface at rest. Unlike there, the root stays where it is: a hair keeps growing out of the skin
-//! whatever `kink.root`. Local space, unit of the mesh; frequencies per unit of the mesh.
+//! vertex where it stands on the surface at rest. Unlike there, the root stays where it is:
+//! a hair keeps growing out of the skin whatever `kink.root`. Local space, unit of the mesh;
+//! frequencies per unit of the mesh.
 
 use crate::noise::noise_vectors;
 use crate::noise_fields::{HairNoise, NoiseFields};

@@ -1,13 +1,12 @@
 //! Colour, opacity and width along a hair.
 //!
-//! Source: document 004, sections 2.2.6 and 2.2.9: values at root and tip, mixed
-//! linearly in t = i / segments, or those of a ramp; colours in HSV with the hue on its
-//! shorter arc, or in Oklab or RGB. Colours linear RGB in 0..=1, widths full diameters in the unit of the
-//! mesh.
+//! Source: document 004, sections 2.2.6 and 2.2.9: values at root and tip, mixed linearly in
+//! t = i / segments, or those of a ramp; colours in HSV with the hue on its shorter arc, or in
+//! Oklab or RGB. Colours linear RGB in 0..=1, widths full diameters in the unit of the mesh.
 
 use crate::color::{ColorMix, ColorSpace};
 use crate::color_profile::ColorProfile;
-use crate::profile::{Profile, line};
+use crate::profile::Profile;
 
 /// Vertices of a hair that are coloured together.
 const ROW: usize = 8;
@@ -73,8 +72,8 @@ pub(crate) fn along(
         let first = row * ROW;
         let ts = vertices.places(row, numbers);
         let [reds, greens, blues] = fields.color.at(mixes, &ts);
-        let opacity = ts.map(|t| fields.opacity.at(look.opacity, t, line));
-        let width = ts.map(|t| fields.width.at(look.width, t, line));
+        let opacity = fields.opacity.row(look.opacity, &ts);
+        let width = fields.width.row(look.width, &ts);
         for k in 0..numbers.len() {
             colors[first + k] = [reds[k], greens[k], blues[k]];
             opacities[first + k] = opacity[k];

@@ -2,13 +2,14 @@
 //!
 //! Source: document 004, section 2.2.7, equation 2.5, with its errata: the twist is shared
 //! out over the segments, so that it is the whole turn from root to tip, and fibres are
-//! scaled by `1 - randomize · ξ`. Vertex i of a fibre lies in the plane of the hair's
-//! normal N and binormal B there,
+//! scaled by `1 - randomize · ξ`. Vertex i of a fibre lies in the plane of the hair's normal
+//! N and binormal B there,
 //! `P = (1 - lack) · (M + splay · (x (c N + a s B) + y (a c B - s N)) + offset · t³ · N)`,
 //! where t = i / segments, M is the hair's vertex seen from its root, (x, y) the fibre's
-//! place in the unit disc, c and s cosine and sine of `twist · t`, a the aspect, and
-//! splay is `w · border + (1 - w) · center` with w = 4 (t - ½)² and the border that of
-//! the nearer end. All but (x, y) and the lack `randomize · ξ` is the same for the fibres of a hair.
+//! place in the unit disc, c and s cosine and sine of `twist · t`, a the aspect, and splay is
+//! `w · border + (1 - w) · center` with w = 4 (t - ½)² and the border that of the nearer end,
+//! or a ramp. All but (x, y) and the lack `randomize · ξ` is the same for the fibres of a
+//! hair.
 //!
 //! Space of the pose, unit of the mesh, angles in radians. Maps are read at the root of
 //! the hair.

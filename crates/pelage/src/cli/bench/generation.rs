@@ -17,10 +17,11 @@ use std::fmt::Write;
 const PREFACE: &str = "
 A ball of 9,024 triangles with 1,000 guides, of which 3 shape a hair; hairs of 5 and of 15
 segments into the null sink: a million single hairs, or 200,000 of 5 fibres each in the
-scenes `strands`. `plain` sets scale, frizz, kink, mutant hair, the variation of colour, and colour,
-opacity and width from root to tip, and no map; `five maps` has maps of 1024² texels for density, scale, colour, opacity and
-width, as document 004 compares (section 4.2). `strands` is plain too, with splay, twist and
-shortening. *Cold* is everything from roots to the
+scenes `strands`. `plain` sets scale, frizz, kink, mutant hair, the variation of colour, and
+colour, opacity and width from root to tip, and no map; `five maps` has maps of 1024² texels
+for density, scale, colour, opacity and width, as document 004 compares (section 4.2).
+`strands` is plain too, with splay, twist and shortening.
+*Cold* is everything from roots to the
 sink; *warm* keeps what was captured of the rest pose, as the frames of an animation can,
 and evaluates a pose. The best of five runs counts. *Of copying* is the bytes handed to the
 sink a second, over those that as many threads read and write when they copy plain memory,
