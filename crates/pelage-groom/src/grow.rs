@@ -4,8 +4,10 @@
 //! proportion to the density of the hair. A guide starts more upright than it ends: at
 //! the fraction t of its length it leans by `lean · (½ + t)` from the normal toward the
 //! comb direction, so that `lean` is its mean. A curl winds around that line with a
-//! radius that grows from nothing at the root.
+//! radius that grows from nothing at the root. Guides may be shaped by curvature and torsion
+//! instead ([`grow_bend`](crate::grow_bend)); then `lean` is how they leave the root.
 
+use crate::grow_bend::BendFields;
 use crate::guide::Guide;
 use crate::maps::{FieldMaker, ScalarField};
 use crate::random::{Channel, uniform};
@@ -30,6 +32,7 @@ pub(crate) fn grow(
         comb: comb_field(grow, &fields)?,
         radius: fields.scalar("guides.grow.curl.radius", &grow.curl.radius)?,
         turns: fields.scalar("guides.grow.curl.turns", &grow.curl.turns)?,
+        bend: BendFields::new(&grow.bend, &mut fields)?,
         segments: grow.segments.max(1),
     };
     // A rotation by the seed (Cranley and Patterson) keeps the points' spread.
@@ -96,6 +99,8 @@ struct Shape {
     comb: CombField,
     radius: ScalarField,
     turns: ScalarField,
+    /// `None` where curvature and torsion do not shape guides.
+    bend: Option<BendFields>,
     segments: u32,
 }
 
@@ -106,6 +111,12 @@ impl Shape {
         let lean = self.lean.at(uv).to_radians();
         let (radius, turns) = (self.radius.at(uv), self.turns.at(uv));
         let along = self.comb.at(frame, uv);
+        if let Some(bend) = &self.bend {
+            let (sine, cosine) = (libm::sinf(lean), libm::cosf(lean));
+            let tangent = along * sine + Vec3::Z * cosine;
+            let normal = along * cosine - Vec3::Z * sine;
+            return bend.vertices(uv, length, self.segments, [tangent, normal], phase);
+        }
         let aside = Vec3::new(-along.y, along.x, 0.0);
         let step = length / self.segments as f32;
         let direction = |t: f32| {

@@ -23,6 +23,7 @@ mod generate;
 mod groom;
 mod groups;
 mod grow;
+mod grow_bend;
 mod guide;
 mod guide_set;
 mod guide_shapes;

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::Recipe;
 use super::clump::ClumpAround;
+use super::property::ScalarProperty;
 use super::reader::Reader;
 use super::segments::Segments;
 
@@ -29,6 +30,16 @@ fn check_guides(recipe: &Recipe, reader: &mut Reader<'_>) {
             reader.missing("guides", span, Some(what));
         }
         _ => {}
+    }
+    if let Some(grow) = &guides.grow {
+        let acts = |property: &ScalarProperty| {
+            let ramp = property.ramp.as_ref();
+            ramp.map_or(property.value != 0.0, |ramp| !ramp.points.is_empty())
+        };
+        if acts(&grow.curl.radius) && acts(&grow.bend.curvature) {
+            let span = span(reader, "guides.grow.bend");
+            reader.exclusive("guides.grow.bend", span, "guides.grow.curl");
+        }
     }
     let of_curves = [
         ("guides.tolerance", guides.tolerance.is_some()),

@@ -23,8 +23,10 @@ section! {
         pub lean: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 180.0).degrees(),
         /// The direction to lean in. Left out, the tangent along +u.
         pub comb: Option<Comb> = None => Rule::ANY,
-        /// A helix around the line of each guide.
+        /// A helix around the line of each guide. Excludes `bend`.
         pub curl: Curl = Curl::default() => Rule::ANY,
+        /// Guides shaped by curvature and torsion. Excludes `curl`.
+        pub bend: Bend = Bend::default() => Rule::ANY,
     }
 }
 
@@ -35,5 +37,25 @@ section! {
         pub radius: ScalarProperty = ScalarProperty::new(0.0) => Rule::at_least(0.0).length(),
         /// Turns from root to tip, to the left where negative.
         pub turns: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY.unit("turns"),
+    }
+}
+
+section! {
+    /// Guides shaped by curvature and torsion along them (document 000): wavy, curly and
+    /// coily hair without drawing. A guide leaves its root leaning by `lean`; from there
+    /// `dT/ds = κ N`, `dN/ds = τ B - κ T`, with N first toward the comb direction. Where both
+    /// are the same all along, the guide is a helix; with `curvature` alone a circle, which
+    /// closes at 360.
+    pub struct Bend {
+        /// How far the guide turns along itself, in degrees over its whole length; negative
+        /// away from the comb direction. A ramp gives the rate along the guide.
+        pub curvature: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY.degrees().with_ramp(),
+        /// How far the plane it bends in turns about it, in degrees over its whole length;
+        /// positive for a right-handed screw. A ramp gives the rate along the guide.
+        pub torsion: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY.degrees().with_ramp(),
+        /// How far that plane is turned at the root.
+        pub roll: ScalarProperty = ScalarProperty::new(0.0) => Rule::ANY.degrees(),
+        /// The part of a full turn by which it is turned at random, guide by guide.
+        pub random: ScalarProperty = ScalarProperty::new(0.0) => Rule::between(0.0, 1.0),
     }
 }

@@ -107,7 +107,7 @@ pub use flyaway::Flyaway;
 pub use frizz::{Frizz, FrizzAnimation};
 pub use group_map::GroupMap;
 pub use groups::Groups;
-pub use grow::{Curl, Grow};
+pub use grow::{Bend, Curl, Grow};
 pub use guides::{GuideSource, Guides};
 pub use hair::{Display, Hair};
 pub use interpolation::{Interpolation, InterpolationSpace, Method};

@@ -100,6 +100,11 @@ const CURLY: &[(&str, &str)] = &[
     ("guides.grow.curl.turns", "4.0"),
     ("groups.segments", "32"),
 ];
+const BENT: &[(&str, &str)] = &[
+    ("guides.grow.segments", "64"),
+    ("groups.segments", "64"),
+    ("guides.grow.bend.torsion", "900.0"),
+];
 const SPREAD: &[(&str, &str)] = &[
     ("strand.splay.root", "0.01"),
     ("strand.splay.center", "0.06"),
@@ -130,6 +135,34 @@ pub const STRIPS: &[Strip] = &[
         &["0.0", "1.0", "3.0", "6.0"],
     )
     .with(CURLY),
+    strip(
+        "guides.grow.bend.curvature",
+        Tuft,
+        &["90.0", "360.0", "1500.0", "{ ramp = [[0, 0], [1, 1500]] }"],
+    )
+    .with(BENT),
+    strip(
+        "guides.grow.bend.torsion",
+        Tuft,
+        &["0.0", "360.0", "1500.0", "4000.0"],
+    )
+    .with(&[
+        ("guides.grow.bend.curvature", "1500.0"),
+        ("guides.grow.segments", "64"),
+        ("groups.segments", "64"),
+    ]),
+    strip(
+        "guides.grow.bend.roll",
+        Tuft,
+        &["0.0", "90.0", "180.0", "270.0"],
+    )
+    .with(&[("guides.grow.bend.curvature", "120.0")]),
+    strip(
+        "guides.grow.bend.random",
+        Tuft,
+        &["0.0", "0.1", "0.4", "1.0"],
+    )
+    .with(&[("guides.grow.bend.curvature", "120.0")]),
     strip("hair.count", Fur, &["500", "2_000", "8_000", "32_000"]),
     strip("hair.seed", Tuft, &["0", "1", "2", "3"]),
     strip(

@@ -37,6 +37,9 @@ impl<'s> Maker<'s> {
         } else {
             guides.insert("curves".into(), json!("guides.usda"));
         }
+        if let Some(grow) = guides.get_mut("grow").and_then(Value::as_object_mut) {
+            grow.remove(["curl", "bend"][self.below(2) as usize]);
+        }
         if let Some(groups) = recipe.get_mut("groups").and_then(Value::as_object_mut)
             && !groups.contains_key("map")
         {
