@@ -11,7 +11,9 @@
 //! cargo run --release --example luminaire -- luminaire.svg
 //! ```
 
-#[path = "../src/cli/bench/plot.rs"]
+// Of the plots of the command only one kind is drawn here.
+#[allow(dead_code)]
+#[path = "../src/cli/plot.rs"]
 mod plot;
 
 use pelage::curves::Vec3;

@@ -13,7 +13,9 @@
 //! cargo run --release --example environment -- environment.svg [sky.exr]
 //! ```
 
-#[path = "../../src/cli/bench/plot.rs"]
+// Of the plots of the command only one kind is drawn here.
+#[allow(dead_code)]
+#[path = "../../src/cli/plot.rs"]
 mod plot;
 mod sky;
 

@@ -47,6 +47,8 @@ pub enum Command {
     Render(RenderArgs),
     /// Tell what a file holds, and everything that is wrong with it.
     Inspect(InspectArgs),
+    /// Tell how curves bend: curvature, torsion, helicity and length, as tables and plots.
+    Analyze(AnalyzeArgs),
     /// Measure the figures of docs/results again, on this machine.
     Bench(BenchArgs),
     /// Draw each property in a strip of pictures, from low to high.
@@ -88,6 +90,30 @@ pub struct DemoArgs {
     /// Size of the picture.
     #[arg(long, default_value = "1280x720", value_parser = size, value_name = "WxH")]
     pub size: (u32, u32),
+}
+
+/// `pelage analyze`.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  pelage analyze guides.usda -o report\n  \
+    pelage analyze hair.npz -o report --strand 42 --steps 64")]
+pub struct AnalyzeArgs {
+    /// A file of curves: USD, .npz, .hair or OBJ polylines.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// Folder for the report: report.md, statistics.json and plots; it is made where it is
+    /// missing.
+    #[arg(long, short, value_hint = ValueHint::DirPath)]
+    pub output: PathBuf,
+    /// The curve to plot by itself, counted from 0. Left out, the one that bends as much as
+    /// half of them.
+    #[arg(long, value_name = "N")]
+    pub strand: Option<usize>,
+    /// Steps of equal length in which each curve is looked at.
+    #[arg(long, default_value_t = 32, value_parser = clap::value_parser!(u32).range(2..=4096))]
+    pub steps: u32,
+    /// The time to look at, where the file has several.
+    #[arg(long, value_name = "F")]
+    pub frame: Option<f64>,
 }
 
 /// `pelage gallery`.

@@ -3,6 +3,7 @@
 //! Exit codes: 0 done; 1 something failed, said in words on standard error; 2 the
 //! command line itself is wrong; 3 `inspect` found something wrong with a file.
 
+mod analyze;
 mod args;
 mod bench;
 mod demo;
@@ -14,6 +15,7 @@ mod init;
 mod inspect;
 mod pages;
 mod picture;
+mod plot;
 mod progress;
 mod sample;
 mod say;
@@ -38,6 +40,7 @@ pub fn run() -> ExitCode {
         Command::Sample(args) => sample::run(&args, &say),
         Command::Render(args) => picture::run(&args, &say),
         Command::Inspect(args) => inspect::run(&args, &say),
+        Command::Analyze(args) => analyze::run(&args, &say),
         Command::Bench(args) => bench::run(&args, &say),
         Command::Gallery(args) => gallery::run(&args, &say),
         Command::Schema { markdown } => pages::schema(markdown),

@@ -146,6 +146,52 @@ fn the_gallery_draws_the_strips_that_are_asked_for() {
 }
 
 #[test]
+fn analyzing_helices_finds_their_curvature_torsion_and_length() {
+    let folder = Folder::new();
+    // Radius 2, rising 3 a radian, five turns; and a straight line, and a point twice.
+    let mut text = String::new();
+    for i in 0..=400 {
+        let angle = i as f64 / 400.0 * 10.0 * std::f64::consts::PI;
+        let (x, y) = (2.0 * libm::cos(angle), 2.0 * libm::sin(angle));
+        text += &format!("v {x} {y} {}\n", 3.0 * angle);
+    }
+    text += "v 0 0 0\nv 0 0 1\nv 0 0 5\nv 1 1 1\nv 1 1 1\n";
+    let line: Vec<String> = (1..=401).map(|i| i.to_string()).collect();
+    text += &format!("l {}\nl 402 403 404\nl 405 406\n", line.join(" "));
+    folder.write("curves.obj", &text);
+    let (curves, report) = (folder.path("curves.obj"), folder.path("report"));
+    let said = pelage(&[
+        "analyze", &curves, "-o", &report, "--strand", "0", "--steps", "200",
+    ]);
+    assert!(said.contains("helicity"), "{said}");
+    for name in ["curvature.svg", "torsion.svg", "strand.svg"] {
+        assert!(
+            folder.bytes(&format!("report/{name}")).starts_with(b"<svg"),
+            "{name}"
+        );
+    }
+    let page = String::from_utf8(folder.bytes("report/report.md")).unwrap();
+    assert!(page.contains("3 curves, 1 of them left out"), "{page}");
+    let found: serde_json::Value =
+        serde_json::from_slice(&folder.bytes("report/statistics.json")).unwrap();
+    let most = |name: &str| {
+        let all = found["statistics"].as_array().unwrap();
+        let one = all.iter().find(|one| one["name"] == name).unwrap();
+        one["quantiles"][4].as_f64().unwrap()
+    };
+    let near = |name: &str, expected: f64| {
+        let error = (most(name) - expected).abs() / expected;
+        assert!(error < 0.01, "{name}: {} for {expected}", most(name));
+    };
+    near("length", 10.0 * std::f64::consts::PI * 13f64.sqrt());
+    near("curvature", 2.0 / 13.0);
+    near("torsion", 3.0 / 13.0);
+    near("helicity", 1.5);
+    let words = fails(&["analyze", &curves, "-o", &report, "--strand", "3"]);
+    assert!(words.contains("there are 3 curves"), "{words}");
+}
+
+#[test]
 fn a_pose_of_other_topology_is_refused_with_the_place() {
     let folder = Folder::with_ball();
     folder.write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

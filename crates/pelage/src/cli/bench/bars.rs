@@ -1,6 +1,6 @@
 //! Bars cut into parts, for the results, as SVG.
 
-use super::plot::{COLORS, legend};
+use crate::cli::plot::{COLORS, legend};
 use anyhow::{Result, anyhow};
 use plotters::coord::ranged1d::SegmentValue;
 use plotters::prelude::*;

@@ -8,7 +8,6 @@ mod measure;
 mod methods;
 mod order;
 mod picks;
-mod plot;
 mod sampling;
 mod scenes;
 mod surfaces;
