@@ -16,7 +16,7 @@ use crate::maps::{FieldMaker, ScalarField};
 use crate::plan::Plan;
 use crate::pose::Moment;
 use crate::profile::Profile;
-use crate::random::{Channel, uniform};
+use crate::random::{Channel, uniform, word};
 use crate::recipe::ClumpLevel;
 use crate::shape::Shapes;
 use crate::stages::clump::{self, Member};
@@ -28,12 +28,18 @@ use pelage_surface::RootFrame;
 /// Middles that are looked at to find one that suits a hair.
 const NEAREST: usize = 8;
 
+/// How many times as long as the middle hair of its clump a hair may be: one that is next
+/// to nothing does not tell where others go.
+const FASTEST: f32 = 1e4;
+
 /// A level of clumps.
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
     drawn: Profile<2>,
     random: ScalarField,
     preserve_length: bool,
+    /// Seed of its `random`.
+    seed: u64,
     /// The hairs in the middles, members of the levels before.
     pub middles: Capture,
     membership: Membership,
@@ -100,16 +106,20 @@ impl Level {
             return Member::NONE;
         };
         let [root, tip, random] = values.map(|value| value.clamp(0.0, 1.0));
-        let less = random * uniform(plan.seed, clump as u64, Channel::Clump);
+        let less = random * uniform(self.seed, clump as u64, Channel::Clump);
         let part = (1.0 - less) * capture.clumped(i);
         let segment = |capture: &Capture, i: usize| {
             let group = capture.roots[i].group as usize;
             capture.lengths[i] / plan.guides[group].segments as f32
         };
+        let pace = segment(capture, i) / segment(&self.middles, clump as usize);
+        if pace > FASTEST {
+            return Member::NONE;
+        }
         Member {
             clump: Some(clump),
             drawn: [root, tip].map(|drawn| drawn * part),
-            pace: segment(capture, i) / segment(&self.middles, clump as usize),
+            pace,
         }
     }
 }
@@ -132,6 +142,7 @@ impl Plan {
             drawn,
             random,
             preserve_length: recipe.preserve_length,
+            seed: word(self.seed, self.clumps.len() as u64, Channel::Clump),
             membership: Membership::new(self, found, &middles),
             middles,
         });
