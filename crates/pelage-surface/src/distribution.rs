@@ -5,6 +5,7 @@
 //! costs constant time whatever the weights. The sum runs in f64 and is stored as
 //! fractions of 2^64 (errata: floats would leave 4 bits inside an element).
 
+use crate::sums::{PADDING, Sums, TWO_64};
 use rayon::prelude::*;
 
 /// A discrete distribution over `0..len`.
@@ -37,9 +38,6 @@ pub struct Pick {
     pub rest: f32,
 }
 
-/// Entries after the last start, so that a pick may read ahead.
-const PADDING: usize = 3;
-
 impl Distribution {
     /// A distribution in proportion to `weights`, which must be positive and finite;
     /// `None` where there is none, where one is not, or for 2^32 or more of them.
@@ -53,44 +51,19 @@ impl Distribution {
 
     /// The same with a grid of 2^`bits` cells (1 to 32 bits), for those who know better.
     pub fn with_cells(weights: &[f64], bits: u32) -> Option<Self> {
-        let runs: Vec<&[f64]> = weights.chunks(RUN).collect();
-        Self::of_runs_with_cells(&runs, bits)
+        Self::of_sums_with_cells(Sums::new(weights)?, bits)
     }
 
-    /// As [`new`](Self::new), of weights that come in `runs`, which are summed in parallel:
-    /// how they are cut shows in the last bits of the sums.
-    pub(crate) fn of_runs(runs: &[&[f64]]) -> Option<Self> {
-        let len = runs.iter().map(|run| run.len()).sum();
-        Self::of_runs_with_cells(runs, cell_bits(len))
+    /// As [`new`](Self::new), of weights that were summed before.
+    pub(crate) fn of_sums(sums: Sums) -> Option<Self> {
+        let bits = cell_bits(sums.before.len() - PADDING);
+        Self::of_sums_with_cells(sums, bits)
     }
 
-    fn of_runs_with_cells(runs: &[&[f64]], bits: u32) -> Option<Self> {
-        let sums: Option<Vec<f64>> = runs.par_iter().map(|run| sound_sum(run)).collect();
-        let mut total = 0.0;
-        let before: Vec<f64> = sums?
-            .into_iter()
-            .map(|sum| {
-                let before = total;
-                total += sum;
-                before
-            })
-            .collect();
-        let len: usize = runs.iter().map(|run| run.len()).sum();
-        if len == 0 || u32::try_from(len).is_err() || !total.is_finite() {
-            return None;
-        }
-        let scale = TWO_64 / total;
-        let mut starts = vec![u64::MAX; len + PADDING];
-        let shares = divide(&mut starts, runs.iter().map(|run| run.len()));
-        let shares = shares.into_par_iter().zip(runs).zip(before);
-        shares.for_each(|((starts, weights), before)| {
-            let mut inside = 0.0;
-            for (start, weight) in starts.iter_mut().zip(*weights) {
-                // Scaling is monotonic, and a product past the end saturates.
-                *start = ((before + inside) * scale) as u64;
-                inside += weight;
-            }
-        });
+    fn of_sums_with_cells(sums: Sums, bits: u32) -> Option<Self> {
+        let (starts, total) = sums.into_starts()?;
+        let len = starts.len() - PADDING;
+        u32::try_from(len).ok()?;
         let shift = 64 - bits.clamp(1, 32);
         Some(Self {
             grid: grid(&starts[..len], shift),
@@ -247,28 +220,8 @@ fn bisect(starts: &[u64], first: usize, last: usize, fraction: u64) -> usize {
     first + starts[first + 1..last + 1].partition_point(|&start| start <= fraction)
 }
 
-const TWO_64: f64 = 18_446_744_073_709_551_616.0;
-
-/// Weights summed at a time. Fixed, so that the sums do not depend on the threads.
+/// Cells of the grid that one task fills.
 const RUN: usize = 1 << 14;
-
-/// The sum of `weights`, if all are positive and finite.
-fn sound_sum(weights: &[f64]) -> Option<f64> {
-    let sound = weights.iter().all(|w| *w > 0.0 && w.is_finite());
-    sound.then(|| weights.iter().sum())
-}
-
-/// The consecutive parts of `whole` that have the lengths `lengths`.
-pub(crate) fn divide<T>(whole: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
-    let mut left = whole;
-    lengths
-        .map(|length| {
-            let (part, later) = std::mem::take(&mut left).split_at_mut(length);
-            left = later;
-            part
-        })
-        .collect()
-}
 
 /// As many bits as the number of elements has.
 fn cell_bits(elements: usize) -> u32 {

@@ -6,14 +6,9 @@
 //! map), parts that are too deep are named from a *split*: a part of the triangle that
 //! is listed as if it were one more triangle.
 
-use crate::distribution::divide;
-use crate::subdivide::{Part, Piece, first_part, parts};
-use rayon::prelude::*;
+use crate::part::{Part, TABLE_DEPTH, first_part, parts};
+use crate::subdivide::Piece;
 use std::collections::HashMap;
-
-/// Depth to which parts have a table entry, at 12 bytes: 5,461 parts, which stay in the
-/// first-level cache.
-const TABLE_DEPTH: u32 = 6;
 
 /// The pieces of a surface, by their index along the distribution.
 #[derive(Clone, Debug)]
@@ -28,51 +23,42 @@ pub(crate) struct Pieces {
 }
 
 impl Pieces {
-    /// Packs the pieces of `runs` of a mesh of `triangles` triangles; `None` for more
-    /// pieces than 32 bits can name.
-    pub(crate) fn new(runs: &[&[Piece]], triangles: u32) -> Option<Self> {
-        let parts = runs.par_iter().map(|run| run.iter().map(|p| p.part).max());
-        let deepest = depth_of(parts.max().flatten().unwrap_or(0));
-        if deepest <= TABLE_DEPTH
-            && let Some(pieces) = Self::whole(runs, triangles, deepest)
-        {
-            return Some(pieces);
-        }
-        (0..=deepest.min(TABLE_DEPTH))
-            .rev()
-            .find_map(|depth| Self::with_splits(runs, triangles, depth))
+    /// How many bits of a word the parts of depth `deepest` need, if the indices of all
+    /// `triangles` fit beside them: nearly always.
+    pub(crate) fn part_bits(triangles: u32, deepest: u32) -> Option<u32> {
+        let bits = part_bits(deepest);
+        let fits = deepest <= TABLE_DEPTH && triangles as u64 <= hosts(bits);
+        fits.then_some(bits)
     }
 
-    /// Packs `runs`, whose parts are no deeper than `depth`, if triangle and part fit a
-    /// word: nearly always.
-    fn whole(runs: &[&[Piece]], triangles: u32, depth: u32) -> Option<Self> {
-        let part_bits = part_bits(depth);
-        if triangles as u64 > hosts(part_bits) {
-            return None;
-        }
-        let mut codes = vec![0; runs.iter().map(|run| run.len()).sum()];
-        let places = divide(&mut codes, runs.iter().map(|run| run.len()));
-        places.into_par_iter().zip(runs).for_each(|(codes, run)| {
-            for (code, piece) in codes.iter_mut().zip(*run) {
-                *code = piece.triangle << part_bits | piece.part;
-            }
-        });
-        Some(Self {
+    /// Pieces that are packed already, of parts no deeper than `deepest`, with
+    /// [`part_bits`](Self::part_bits).
+    pub(crate) fn packed(codes: Vec<u32>, triangles: u32, deepest: u32) -> Self {
+        Self {
             codes,
-            part_bits,
-            parts: parts(depth),
+            part_bits: part_bits(deepest),
+            parts: parts(deepest),
             triangles,
             splits: Vec::new(),
-        })
+        }
     }
 
-    /// Packs `runs` with part indices down to `depth`, if all hosts can be named.
-    fn with_splits(runs: &[&[Piece]], triangles: u32, depth: u32) -> Option<Self> {
+    /// Packs `pieces` of a mesh of `triangles` triangles; `None` for more than 32 bits can
+    /// name.
+    pub(crate) fn new(pieces: &[Piece], triangles: u32) -> Option<Self> {
+        let deepest = depth_of(pieces.iter().map(|p| p.part).max().unwrap_or(0));
+        (0..=deepest.min(TABLE_DEPTH))
+            .rev()
+            .find_map(|depth| Self::with_splits(pieces, triangles, depth))
+    }
+
+    /// Packs `pieces` with part indices down to `depth`, if all hosts can be named.
+    fn with_splits(pieces: &[Piece], triangles: u32, depth: u32) -> Option<Self> {
         let part_bits = part_bits(depth);
         let mut splits = Vec::new();
         let mut named = HashMap::new();
-        let mut codes = Vec::with_capacity(runs.iter().map(|run| run.len()).sum());
-        for piece in runs.iter().flat_map(|run| run.iter()) {
+        let mut codes = Vec::with_capacity(pieces.len());
+        for piece in pieces {
             let (base, local) = cut_name(piece.part, depth);
             let host = match base {
                 0 => piece.triangle,
@@ -227,8 +213,7 @@ mod tests {
                 .into_iter()
                 .map(|(triangle, part)| Piece { triangle, part })
                 .collect();
-            let runs: Vec<&[Piece]> = found.chunks(7).collect();
-            let pieces = Pieces::new(&runs, triangles).unwrap();
+            let pieces = Pieces::new(&found, triangles).unwrap();
             for (packed, piece) in pieces.iter().zip(&found) {
                 prop_assert_eq!(packed, (piece.triangle, part_named(piece.part)));
             }

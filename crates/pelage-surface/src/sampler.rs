@@ -6,12 +6,13 @@
 //! a Hilbert curve through the rest pose, so that the stratification of the first
 //! number becomes one in space, and a region becomes a few intervals of it.
 
+use crate::density::{Density, DensityField};
 use crate::distribution::Distribution;
-use crate::hilbert::hilbert_index;
+use crate::hilbert::along_curve;
+use crate::part::Part;
 use crate::pieces::{Names, Pieces};
-use crate::subdivide::{Density, DensityField, Part, Piece, cut};
+use crate::subdivide::{Piece, Plan};
 use crate::{Mesh, RootSequence, Spread, SurfacePoint, TiledDensity};
-use rayon::prelude::*;
 
 /// Draws roots on a mesh in proportion to a density.
 #[derive(Clone, Debug)]
@@ -35,12 +36,22 @@ impl RootSampler {
     }
 
     fn by(mesh: &Mesh, density: &impl DensityField, seed: u64) -> Option<Self> {
-        let runs = cut(mesh, &order_along_curve(mesh), density);
-        let weights: Vec<&[f64]> = runs.iter().map(|run| &run.weights[..]).collect();
-        let pieces: Vec<&[Piece]> = runs.iter().map(|run| &run.pieces[..]).collect();
+        let (order, triangles) = (along_curve(mesh), mesh.triangles().len() as u32);
+        let plan = Plan::new(mesh, &order, density);
+        let deepest = plan.deepest();
+        let (pieces, sums) = match Pieces::part_bits(triangles, deepest) {
+            Some(bits) => {
+                let cut = plan.cut(bits);
+                (Pieces::packed(cut.names, triangles, deepest), cut.sums)
+            }
+            None => {
+                let cut = plan.cut::<Piece>(0);
+                (Pieces::new(&cut.names, triangles)?, cut.sums)
+            }
+        };
         Some(Self {
-            distribution: Distribution::of_runs(&weights)?,
-            pieces: Pieces::new(&pieces, mesh.triangles().len() as u32)?,
+            distribution: Distribution::of_sums(sums)?,
+            pieces,
             sequence: RootSequence::new(seed, Spread::default()),
             seed,
         })
@@ -189,21 +200,6 @@ fn fraction(y: u32) -> f32 {
     (y >> 8) as i32 as f32 * (1.0 / (1 << 24) as f32)
 }
 
-/// Triangles along a Hilbert curve through their centres.
-fn order_along_curve(mesh: &Mesh) -> Vec<u32> {
-    let (low, high) = mesh.bounds();
-    let side = (high - low).max_element().max(f32::MIN_POSITIVE);
-    let mut order: Vec<(u64, u32)> = (0..mesh.triangles().len() as u32)
-        .into_par_iter()
-        .map(|t| {
-            let [a, b, c] = mesh.corners(t as usize);
-            (hilbert_index((a + b + c) / 3.0, low, side), t)
-        })
-        .collect();
-    order.par_sort_unstable();
-    order.into_iter().map(|(_, t)| t).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -223,10 +219,8 @@ mod tests {
         let mut counts = vec![0f64; triangles];
         (0..n).for_each(|i| counts[sampler.root(i).triangle as usize] += 1.0);
         let mut expected = vec![0.0; triangles];
-        for run in cut(&mesh, &(0..triangles as u32).collect::<Vec<_>>(), &density) {
-            for (piece, weight) in run.pieces.iter().zip(run.weights) {
-                expected[piece.triangle as usize] += weight;
-            }
+        for (piece, (triangle, _)) in sampler.pieces.iter().enumerate() {
+            expected[triangle as usize] += sampler.distribution.probability(piece);
         }
         let scale = n as f64 / expected.iter().sum::<f64>();
         let chi_square: f64 = counts

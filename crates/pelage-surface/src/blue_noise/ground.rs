@@ -8,7 +8,7 @@
 //! a cluster in space.
 
 use super::hierarchy::Bounds;
-use crate::subdivide::Part;
+use crate::part::Part;
 use crate::{Mesh, RootSampler};
 use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec3;
@@ -317,7 +317,7 @@ impl Site {
 /// place is the centre of the last. All sixteen steps at once: a step adds or, inside an
 /// odd number of middle parts, subtracts a power of two.
 ///
-/// [`Part::children`]: crate::subdivide::Part::children
+/// [`Part::children`]: crate::part::Part::children
 #[inline(always)]
 fn along_curve(rest: u32) -> [f32; 2] {
     let (high, low) = (every_second(rest >> 1), every_second(rest));
