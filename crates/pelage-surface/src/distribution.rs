@@ -152,25 +152,56 @@ impl Tables<'_> {
         (index, inside(fraction, share))
     }
 
-    /// [`locate`](Self::locate) for many. Nothing is decided before all tables are read: a
-    /// decision guessed wrong throws away what was begun to be read after it.
+    /// [`locate`](Self::locate) for many. All tables are read before anything is decided, and
+    /// what is decided needs no branch: a decision guessed wrong throws away what was begun
+    /// to be read after it.
     #[inline(always)]
     pub(crate) fn locate_all<const N: usize>(
         self,
         fractions: &[u64; N],
-        indices: &mut [usize; N],
+        indices: &mut [u32; N],
         rests: &mut [[i32; 2]; N],
     ) {
         let mut near = [[0; 4]; N];
         for k in 0..N {
-            indices[k] = self.grid[(fractions[k] >> self.shift) as usize] as usize;
+            indices[k] = self.grid[(fractions[k] >> self.shift) as usize];
         }
         for k in 0..N {
-            near[k].copy_from_slice(&self.starts[indices[k]..indices[k] + 4]);
+            let first = indices[k] as usize;
+            near[k].copy_from_slice(&self.starts[first..first + 4]);
         }
+        let mut far = false;
         for k in 0..N {
-            let (index, share) = self.share_among(fractions[k], indices[k], near[k]);
-            (indices[k], rests[k]) = (index, inside(fractions[k], share));
+            let (fraction, [first, second, third, fourth]) = (fractions[k], near[k]);
+            let (one, two) = (second <= fraction, third <= fraction);
+            let start = if one { second } else { first };
+            let end = if one { third } else { second };
+            let start = if two { third } else { start };
+            let end = if two { fourth } else { end };
+            rests[k] = inside(fraction, (start, end - start));
+            indices[k] += one as u32 + two as u32;
+            far |= fourth <= fraction;
+        }
+        if far {
+            self.bisect_all(fractions, &near, indices, rests);
+        }
+    }
+
+    /// Looks further for those that are not in the first three shares.
+    #[inline(never)]
+    fn bisect_all(
+        self,
+        fractions: &[u64],
+        near: &[[u64; 4]],
+        indices: &mut [u32],
+        rests: &mut [[i32; 2]],
+    ) {
+        let places = indices.iter_mut().zip(rests);
+        for ((&fraction, near), (index, rest)) in fractions.iter().zip(near).zip(places) {
+            if near[3] <= fraction {
+                let (found, share) = self.share_around(fraction);
+                (*index, *rest) = (found as u32, inside(fraction, share));
+            }
         }
     }
 

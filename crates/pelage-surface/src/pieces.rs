@@ -129,28 +129,55 @@ impl Names<'_> {
     /// Triangle and part of piece `index`.
     #[inline(always)]
     pub(crate) fn get(self, index: usize) -> (u32, Part) {
-        let (host, part) = self.host(index);
+        let code = self.codes[index];
+        let (host, part) = (code >> self.part_bits, self.part(code));
         self.below(host, part).unwrap_or((host, part))
     }
 
-    /// The host of piece `index`, and the part of it.
+    /// [`get`](Self::get) for many: what is read first, then what is computed.
     #[inline(always)]
-    pub(crate) fn host(self, index: usize) -> (u32, Part) {
-        let code = self.codes[index];
-        let part = self.parts[(code & ((1 << self.part_bits) - 1)) as usize];
-        (code >> self.part_bits, part)
+    pub(crate) fn get_all<const N: usize>(
+        self,
+        pieces: &[u32; N],
+        triangles: &mut [u32; N],
+        parts: &mut [Part; N],
+    ) {
+        let mut codes = [0; N];
+        for k in 0..N {
+            codes[k] = self.codes[pieces[k] as usize];
+        }
+        for k in 0..N {
+            parts[k] = self.part(codes[k]);
+        }
+        let mut highest = 0;
+        for k in 0..N {
+            triangles[k] = codes[k] >> self.part_bits;
+            highest = triangles[k].max(highest);
+        }
+        if highest >= self.triangles {
+            self.leave_splits(triangles, parts);
+        }
     }
 
-    /// Whether `host` is a triangle, and its parts are parts of that.
+    /// The part that `code` names, of its host.
     #[inline(always)]
-    pub(crate) fn is_triangle(self, host: u32) -> bool {
-        host < self.triangles
+    fn part(self, code: u32) -> Part {
+        self.parts[(code & ((1 << self.part_bits) - 1)) as usize]
+    }
+
+    /// Names the triangles of those `hosts` that are splits, and their parts in them.
+    #[cold]
+    #[inline(never)]
+    fn leave_splits(self, hosts: &mut [u32], parts: &mut [Part]) {
+        for (host, part) in hosts.iter_mut().zip(parts) {
+            (*host, *part) = self.below(*host, *part).unwrap_or((*host, *part));
+        }
     }
 
     /// The triangle of a split, and the part of it that `part` of the split is; `None`
     /// for a host that is a triangle.
     #[inline]
-    pub(crate) fn below(self, host: u32, part: Part) -> Option<(u32, Part)> {
+    fn below(self, host: u32, part: Part) -> Option<(u32, Part)> {
         let split = host.checked_sub(self.triangles)?;
         let (triangle, base) = self.splits[split as usize];
         Some((triangle, base.part(part)))

@@ -10,7 +10,7 @@ use crate::density::{Density, DensityField};
 use crate::distribution::Distribution;
 use crate::hilbert::along_curve;
 use crate::part::Part;
-use crate::pieces::{Names, Pieces};
+use crate::pieces::Pieces;
 use crate::subdivide::{Piece, Plan};
 use crate::{Mesh, RootSequence, Spread, SurfacePoint, TiledDensity};
 
@@ -110,30 +110,23 @@ impl RootSampler {
     /// arithmetic of many at once and wait for the memory of many at once.
     #[inline(always)]
     fn lead<const N: usize>(&self, xs: &[u64; N], ys: &[u32; N], places: &mut [SurfacePoint; N]) {
-        let mut rests = [[0; 2]; N];
-        let (mut pieces, mut triangles) = ([0; N], [0; N]);
-        let mut parts = [Part::WHOLE; N];
+        let (mut rests, mut pieces) = ([[0; 2]; N], [0; N]);
         let tables = self.distribution.tables();
         tables.locate_all(xs, &mut pieces, &mut rests);
-        let names = self.pieces.names();
-        let mut splits = false;
-        for k in 0..N {
-            (triangles[k], parts[k]) = names.host(pieces[k]);
-            splits |= !names.is_triangle(triangles[k]);
-        }
-        if splits {
-            leave_splits(names, &mut triangles, &mut parts);
-        }
+        let (mut triangles, mut parts) = ([0; N], [Part::WHOLE; N]);
+        self.pieces
+            .names()
+            .get_all(&pieces, &mut triangles, &mut parts);
         // Document 004, 2.1.5: a triangle's area grows with the square of the distance
         // from its first corner.
         let [mut u, mut v] = [[0.0; N]; 2];
         for k in 0..N {
             let [inside, width] = rests[k];
             let root = (inside as f32 / width as f32).sqrt();
-            [u[k], v[k]] = [1.0 - root, fraction(ys[k]) * root];
+            [u[k], v[k]] = parts[k].at(1.0 - root, fraction(ys[k]) * root);
         }
         for k in 0..N {
-            let [u, v] = parts[k].at(u[k], v[k]);
+            let (u, v) = (u[k], v[k]);
             places[k] = SurfacePoint {
                 triangle: triangles[k],
                 barycentric: [(1.0 - u - v).max(0.0), u, v],
@@ -182,15 +175,6 @@ impl RootSampler {
     /// The two numbers of each hair.
     pub fn sequence(&self) -> &RootSequence {
         &self.sequence
-    }
-}
-
-/// Names the triangles of those `hosts` that are splits, and their parts in them.
-#[cold]
-#[inline(never)]
-fn leave_splits(names: Names, hosts: &mut [u32], parts: &mut [Part]) {
-    for (host, part) in hosts.iter_mut().zip(parts) {
-        (*host, *part) = names.below(*host, *part).unwrap_or((*host, *part));
     }
 }
 
