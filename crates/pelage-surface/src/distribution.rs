@@ -162,14 +162,10 @@ impl Tables<'_> {
         indices: &mut [u32; N],
         rests: &mut [[i32; 2]; N],
     ) {
-        let mut near = [[0; 4]; N];
         for k in 0..N {
             indices[k] = self.grid[(fractions[k] >> self.shift) as usize];
         }
-        for k in 0..N {
-            let first = indices[k] as usize;
-            near[k].copy_from_slice(&self.starts[first..first + 4]);
-        }
+        let near = indices.map(|first| self.four(first as usize));
         let mut far = false;
         for k in 0..N {
             let (fraction, [first, second, third, fourth]) = (fractions[k], near[k]);
@@ -210,9 +206,15 @@ impl Tables<'_> {
     #[inline(always)]
     pub(crate) fn share_around(self, fraction: u64) -> (usize, (u64, u64)) {
         let first = self.grid[(fraction >> self.shift) as usize] as usize;
-        let mut near = [0; 4];
-        near.copy_from_slice(&self.starts[first..first + 4]);
-        self.share_among(fraction, first, near)
+        self.share_among(fraction, first, self.four(first))
+    }
+
+    /// The starts from element `first` on.
+    #[inline(always)]
+    fn four(self, first: usize) -> [u64; 4] {
+        let mut four = [0; 4];
+        four.copy_from_slice(&self.starts[first..first + 4]);
+        four
     }
 
     /// The same where the cell of `fraction` begins in element `first`, and the starts from

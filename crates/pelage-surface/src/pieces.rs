@@ -136,27 +136,15 @@ impl Names<'_> {
 
     /// [`get`](Self::get) for many: what is read first, then what is computed.
     #[inline(always)]
-    pub(crate) fn get_all<const N: usize>(
-        self,
-        pieces: &[u32; N],
-        triangles: &mut [u32; N],
-        parts: &mut [Part; N],
-    ) {
-        let mut codes = [0; N];
-        for k in 0..N {
-            codes[k] = self.codes[pieces[k] as usize];
-        }
-        for k in 0..N {
-            parts[k] = self.part(codes[k]);
-        }
-        let mut highest = 0;
-        for k in 0..N {
-            triangles[k] = codes[k] >> self.part_bits;
-            highest = triangles[k].max(highest);
-        }
+    pub(crate) fn get_all<const N: usize>(self, pieces: &[u32; N]) -> ([u32; N], [Part; N]) {
+        let codes = pieces.map(|piece| self.codes[piece as usize]);
+        let mut parts = codes.map(|code| self.part(code));
+        let mut triangles = codes.map(|code| code >> self.part_bits);
+        let highest = triangles.iter().fold(0, |highest, &host| host.max(highest));
         if highest >= self.triangles {
-            self.leave_splits(triangles, parts);
+            self.leave_splits(&mut triangles, &mut parts);
         }
+        (triangles, parts)
     }
 
     /// The part that `code` names, of its host.

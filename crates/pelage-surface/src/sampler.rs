@@ -113,10 +113,7 @@ impl RootSampler {
         let (mut rests, mut pieces) = ([[0; 2]; N], [0; N]);
         let tables = self.distribution.tables();
         tables.locate_all(xs, &mut pieces, &mut rests);
-        let (mut triangles, mut parts) = ([0; N], [Part::WHOLE; N]);
-        self.pieces
-            .names()
-            .get_all(&pieces, &mut triangles, &mut parts);
+        let (triangles, parts) = self.pieces.names().get_all(&pieces);
         // Document 004, 2.1.5: a triangle's area grows with the square of the distance
         // from its first corner.
         let [mut u, mut v] = [[0.0; N]; 2];
