@@ -42,9 +42,9 @@ impl Distribution {
     /// A distribution in proportion to `weights`, which must be positive and finite;
     /// `None` where there is none, where one is not, or for 2^32 or more of them.
     ///
-    /// Its grid has as many cells as elements, rounded up to a power of two: up to four
-    /// times as many pick a few percent faster from memory that is near, and slower from
-    /// memory that is far (docs/results/sampling.md).
+    /// Its grid has as many cells as elements, rounded to a power of two: up to four times
+    /// as many pick a few percent faster from memory that is near, and slower from memory
+    /// that is far (docs/results/sampling.md).
     pub fn new(weights: &[f64]) -> Option<Self> {
         Self::with_cells(weights, cell_bits(weights.len()))
     }
@@ -256,9 +256,10 @@ fn bisect(starts: &[u64], first: usize, last: usize, fraction: u64) -> usize {
 /// Cells of the grid that one task fills.
 const RUN: usize = 1 << 14;
 
-/// As many bits as the number of elements has.
+/// Bits of the power of two that is nearest to the number of elements.
 fn cell_bits(elements: usize) -> u32 {
-    usize::BITS - elements.saturating_sub(1).leading_zeros()
+    let square = (elements as u128).pow(2);
+    square.checked_ilog2().map_or(0, |bits| bits.div_ceil(2))
 }
 
 /// The element that the lower end of each cell falls in, and the last element.

@@ -9,7 +9,6 @@
 use crate::density::{Density, DensityField};
 use crate::distribution::Distribution;
 use crate::hilbert::along_curve;
-use crate::part::Part;
 use crate::pieces::Pieces;
 use crate::subdivide::{Piece, Plan};
 use crate::{Mesh, RootSequence, Spread, SurfacePoint, TiledDensity};
