@@ -317,6 +317,24 @@ mod tests {
 
     proptest! {
         #[test]
+        fn many_at_once_are_located_as_one_by_one(
+            weights in prop::collection::vec(prop_oneof![1e-9f64..1e-3, 1.0f64..1e9], 1..200),
+            fractions: [u64; 16],
+            bits in 1u32..8,
+        ) {
+            let d = Distribution::with_cells(&weights, bits).unwrap();
+            let (mut indices, mut rests) = ([0; 16], [[0; 2]; 16]);
+            d.tables().locate_all(&fractions, &mut indices, &mut rests);
+            for k in 0..16 {
+                let (index, share) = d.tables().share_around(fractions[k]);
+                prop_assert_eq!(indices[k] as usize, index);
+                prop_assert_eq!(rests[k], inside(fractions[k], share));
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
         fn the_grid_knows_the_element_at_the_lower_end_of_each_cell(
             weights in prop::collection::vec(prop_oneof![1e-9f64..1e-3, 1.0f64..1e9], 1..200),
             bits in 1u32..18,

@@ -229,6 +229,12 @@ mod tests {
                 .map(|(triangle, part)| Piece { triangle, part })
                 .collect();
             let pieces = Pieces::new(&found, triangles).unwrap();
+            let last = pieces.len() as u32 - 1;
+            let eight = std::array::from_fn::<u32, 8, _>(|k| last.min(k as u32));
+            let (triangles, parts) = pieces.names().get_all(&eight);
+            for k in 0..8 {
+                prop_assert_eq!((triangles[k], parts[k]), pieces.get(eight[k] as usize));
+            }
             for (packed, piece) in pieces.iter().zip(&found) {
                 prop_assert_eq!(packed, (piece.triangle, part_named(piece.part)));
             }

@@ -344,3 +344,30 @@ fn depth_for(uv: [Vec2; 3], [width, height]: [u32; 2]) -> u8 {
     };
     depths.into_iter().find(fits).unwrap_or(MAX_DEPTH as u8)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn batches_are_all_runs_in_order_and_no_larger_than_they_may_be() {
+        let rooms = [5, BATCH - 5, 1, 3 * BATCH, BATCH / 2, BATCH / 2, BATCH];
+        let run = |(k, &room): (usize, &usize)| Stretch {
+            triangles: k..k + 1,
+            room,
+        };
+        let runs: Vec<Stretch> = rooms.iter().enumerate().map(run).collect();
+        let counts: Vec<usize> = batches(&runs).map(|batch| batch.len()).collect();
+        assert_eq!(counts, [2, 1, 1, 2, 1]);
+        assert_eq!(batches(&[]).count(), 0);
+    }
+
+    #[test]
+    fn what_is_left_of_runs_closes_up() {
+        let run = |len| Run { len, sum: 1.0 };
+        let mut all = vec![1, 2, 0, 3, 0, 0, 4, 5, 6, 7];
+        let rooms = [3, 3, 3];
+        close_up(&mut all, rooms.into_iter(), &[run(2), run(1), run(3)]);
+        assert_eq!(all, [1, 2, 3, 4, 5, 6]);
+    }
+}
