@@ -32,11 +32,15 @@ fn hilbert_indices<const N: usize>(points: [Vec3; N], low: Vec3, side: f32) -> [
     for bit in (1..BITS).rev() {
         let below = (1 << bit) - 1;
         for i in 0..3 {
-            for k in 0..N {
-                let set = mask(axes[i][k], bit);
-                let exchanged = (axes[0][k] ^ axes[i][k]) & below & !set;
-                axes[0][k] ^= below & set | exchanged;
-                axes[i][k] ^= exchanged;
+            let mut own = axes[i];
+            for (first, own) in axes[0].iter_mut().zip(&mut own) {
+                let set = mask(*own, bit);
+                let exchanged = (*first ^ *own) & below & !set;
+                *first ^= below & set | exchanged;
+                *own ^= exchanged;
+            }
+            if i > 0 {
+                axes[i] = own;
             }
         }
     }
