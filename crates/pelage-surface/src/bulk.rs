@@ -20,8 +20,9 @@ use std::ops::Range;
 /// beside drawing it.
 const LANES: usize = 512;
 
-/// Roots drawn at once, whose numbers stay in the first-level cache.
-const BATCH: usize = 64;
+/// Roots drawn at once: their numbers stay in the first-level cache, and what one pass
+/// writes is on its way there when the next one reads it.
+const BATCH: usize = 128;
 
 /// Runs of an interval that are listed before they are drawn: drawing is compiled for the
 /// processor at hand, and visitors are not.
@@ -141,8 +142,9 @@ impl RootSampler {
                     for column in columns..columns + LINE {
                         let hair = first + (start + column) as u64;
                         self.draw(|k| hair + ((lane + k) * stride) as u64, &mut batch);
-                        for (k, root) in batch.iter().enumerate() {
-                            tile[(lane + k) * ROW + column] = *root;
+                        let rows = tile[lane * ROW..].as_chunks_mut::<ROW>().0;
+                        for (row, root) in rows.iter_mut().zip(&batch) {
+                            row[column] = *root;
                         }
                     }
                 }

@@ -5,6 +5,7 @@
 //! costs constant time whatever the weights. The sum runs in f64 and is stored as
 //! fractions of 2^64 (errata: floats would leave 4 bits inside an element).
 
+use crate::sums::{PADDING, Sums, TWO_64};
 use rayon::prelude::*;
 
 /// A discrete distribution over `0..len`.
@@ -37,60 +38,32 @@ pub struct Pick {
     pub rest: f32,
 }
 
-/// Entries after the last start, so that a pick may read ahead.
-const PADDING: usize = 3;
-
 impl Distribution {
     /// A distribution in proportion to `weights`, which must be positive and finite;
     /// `None` where there is none, where one is not, or for 2^32 or more of them.
     ///
-    /// Its grid has as many cells as elements, rounded up to a power of two: up to four
-    /// times as many pick a few percent faster from memory that is near, and slower from
-    /// memory that is far (docs/results/sampling.md).
+    /// Its grid has as many cells as elements, rounded to a power of two: up to four times
+    /// as many pick a few percent faster from memory that is near, and slower from memory
+    /// that is far (docs/results/sampling.md).
     pub fn new(weights: &[f64]) -> Option<Self> {
         Self::with_cells(weights, cell_bits(weights.len()))
     }
 
     /// The same with a grid of 2^`bits` cells (1 to 32 bits), for those who know better.
     pub fn with_cells(weights: &[f64], bits: u32) -> Option<Self> {
-        let runs: Vec<&[f64]> = weights.chunks(RUN).collect();
-        Self::of_runs_with_cells(&runs, bits)
+        Self::of_sums_with_cells(Sums::new(weights)?, bits)
     }
 
-    /// As [`new`](Self::new), of weights that come in `runs`, which are summed in parallel:
-    /// how they are cut shows in the last bits of the sums.
-    pub(crate) fn of_runs(runs: &[&[f64]]) -> Option<Self> {
-        let len = runs.iter().map(|run| run.len()).sum();
-        Self::of_runs_with_cells(runs, cell_bits(len))
+    /// As [`new`](Self::new), of weights that were summed before.
+    pub(crate) fn of_sums(sums: Sums) -> Option<Self> {
+        let bits = cell_bits(sums.before.len() - PADDING);
+        Self::of_sums_with_cells(sums, bits)
     }
 
-    fn of_runs_with_cells(runs: &[&[f64]], bits: u32) -> Option<Self> {
-        let sums: Option<Vec<f64>> = runs.par_iter().map(|run| sound_sum(run)).collect();
-        let mut total = 0.0;
-        let before: Vec<f64> = sums?
-            .into_iter()
-            .map(|sum| {
-                let before = total;
-                total += sum;
-                before
-            })
-            .collect();
-        let len: usize = runs.iter().map(|run| run.len()).sum();
-        if len == 0 || u32::try_from(len).is_err() || !total.is_finite() {
-            return None;
-        }
-        let scale = TWO_64 / total;
-        let mut starts = vec![u64::MAX; len + PADDING];
-        let shares = divide(&mut starts, runs.iter().map(|run| run.len()));
-        let shares = shares.into_par_iter().zip(runs).zip(before);
-        shares.for_each(|((starts, weights), before)| {
-            let mut inside = 0.0;
-            for (start, weight) in starts.iter_mut().zip(*weights) {
-                // Scaling is monotonic, and a product past the end saturates.
-                *start = ((before + inside) * scale) as u64;
-                inside += weight;
-            }
-        });
+    fn of_sums_with_cells(sums: Sums, bits: u32) -> Option<Self> {
+        let (starts, total) = sums.into_starts()?;
+        let len = starts.len() - PADDING;
+        u32::try_from(len).ok()?;
         let shift = 64 - bits.clamp(1, 32);
         Some(Self {
             grid: grid(&starts[..len], shift),
@@ -179,25 +152,52 @@ impl Tables<'_> {
         (index, inside(fraction, share))
     }
 
-    /// [`locate`](Self::locate) for many. Nothing is decided before all tables are read: a
-    /// decision guessed wrong throws away what was begun to be read after it.
+    /// [`locate`](Self::locate) for many. All tables are read before anything is decided, and
+    /// what is decided needs no branch: a decision guessed wrong throws away what was begun
+    /// to be read after it.
     #[inline(always)]
     pub(crate) fn locate_all<const N: usize>(
         self,
         fractions: &[u64; N],
-        indices: &mut [usize; N],
+        indices: &mut [u32; N],
         rests: &mut [[i32; 2]; N],
     ) {
-        let mut near = [[0; 4]; N];
         for k in 0..N {
-            indices[k] = self.grid[(fractions[k] >> self.shift) as usize] as usize;
+            indices[k] = self.grid[(fractions[k] >> self.shift) as usize];
         }
+        let near = indices.map(|first| self.four(first as usize));
+        let mut far = false;
         for k in 0..N {
-            near[k].copy_from_slice(&self.starts[indices[k]..indices[k] + 4]);
+            let (fraction, [first, second, third, fourth]) = (fractions[k], near[k]);
+            let (one, two) = (second <= fraction, third <= fraction);
+            let start = if one { second } else { first };
+            let end = if one { third } else { second };
+            let start = if two { third } else { start };
+            let end = if two { fourth } else { end };
+            rests[k] = inside(fraction, (start, end - start));
+            indices[k] += one as u32 + two as u32;
+            far |= fourth <= fraction;
         }
-        for k in 0..N {
-            let (index, share) = self.share_among(fractions[k], indices[k], near[k]);
-            (indices[k], rests[k]) = (index, inside(fractions[k], share));
+        if far {
+            self.bisect_all(fractions, &near, indices, rests);
+        }
+    }
+
+    /// Looks further for those that are not in the first three shares.
+    #[inline(never)]
+    fn bisect_all(
+        self,
+        fractions: &[u64],
+        near: &[[u64; 4]],
+        indices: &mut [u32],
+        rests: &mut [[i32; 2]],
+    ) {
+        let places = indices.iter_mut().zip(rests);
+        for ((&fraction, near), (index, rest)) in fractions.iter().zip(near).zip(places) {
+            if near[3] <= fraction {
+                let (found, share) = self.share_around(fraction);
+                (*index, *rest) = (found as u32, inside(fraction, share));
+            }
         }
     }
 
@@ -206,9 +206,15 @@ impl Tables<'_> {
     #[inline(always)]
     pub(crate) fn share_around(self, fraction: u64) -> (usize, (u64, u64)) {
         let first = self.grid[(fraction >> self.shift) as usize] as usize;
-        let mut near = [0; 4];
-        near.copy_from_slice(&self.starts[first..first + 4]);
-        self.share_among(fraction, first, near)
+        self.share_among(fraction, first, self.four(first))
+    }
+
+    /// The starts from element `first` on.
+    #[inline(always)]
+    fn four(self, first: usize) -> [u64; 4] {
+        let mut four = [0; 4];
+        four.copy_from_slice(&self.starts[first..first + 4]);
+        four
     }
 
     /// The same where the cell of `fraction` begins in element `first`, and the starts from
@@ -247,32 +253,13 @@ fn bisect(starts: &[u64], first: usize, last: usize, fraction: u64) -> usize {
     first + starts[first + 1..last + 1].partition_point(|&start| start <= fraction)
 }
 
-const TWO_64: f64 = 18_446_744_073_709_551_616.0;
-
-/// Weights summed at a time. Fixed, so that the sums do not depend on the threads.
+/// Cells of the grid that one task fills.
 const RUN: usize = 1 << 14;
 
-/// The sum of `weights`, if all are positive and finite.
-fn sound_sum(weights: &[f64]) -> Option<f64> {
-    let sound = weights.iter().all(|w| *w > 0.0 && w.is_finite());
-    sound.then(|| weights.iter().sum())
-}
-
-/// The consecutive parts of `whole` that have the lengths `lengths`.
-pub(crate) fn divide<T>(whole: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
-    let mut left = whole;
-    lengths
-        .map(|length| {
-            let (part, later) = std::mem::take(&mut left).split_at_mut(length);
-            left = later;
-            part
-        })
-        .collect()
-}
-
-/// As many bits as the number of elements has.
+/// Bits of the power of two that is nearest to the number of elements.
 fn cell_bits(elements: usize) -> u32 {
-    usize::BITS - elements.saturating_sub(1).leading_zeros()
+    let square = (elements as u128).pow(2);
+    square.checked_ilog2().map_or(0, |bits| bits.div_ceil(2))
 }
 
 /// The element that the lower end of each cell falls in, and the last element.
@@ -324,6 +311,24 @@ mod tests {
             prop_assert!((0.0..=1.0).contains(&pick.rest));
             for (i, w) in weights.iter().enumerate() {
                 prop_assert!((d.probability(i) - w / d.total()).abs() < 1e-14);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn many_at_once_are_located_as_one_by_one(
+            weights in prop::collection::vec(prop_oneof![1e-9f64..1e-3, 1.0f64..1e9], 1..200),
+            fractions: [u64; 16],
+            bits in 1u32..8,
+        ) {
+            let d = Distribution::with_cells(&weights, bits).unwrap();
+            let (mut indices, mut rests) = ([0; 16], [[0; 2]; 16]);
+            d.tables().locate_all(&fractions, &mut indices, &mut rests);
+            for k in 0..16 {
+                let (index, share) = d.tables().share_around(fractions[k]);
+                prop_assert_eq!(indices[k] as usize, index);
+                prop_assert_eq!(rests[k], inside(fractions[k], share));
             }
         }
     }

@@ -4,6 +4,7 @@
 mod blue_noise;
 mod bulk;
 mod closest;
+mod density;
 mod displacement;
 mod distribution;
 #[cfg(test)]
@@ -13,6 +14,7 @@ mod hilbert;
 mod image_map;
 mod mesh;
 mod normals;
+mod part;
 mod pdf;
 mod pieces;
 pub mod quality;
@@ -20,6 +22,7 @@ mod sampler;
 mod sequence;
 mod sheet;
 mod subdivide;
+mod sums;
 mod tangents;
 mod tiles;
 mod triangulate;
@@ -28,6 +31,7 @@ mod window;
 
 pub use blue_noise::BlueNoise;
 pub use closest::ClosestPoint;
+pub use density::Density;
 pub use displacement::Displacement;
 pub use distribution::{Distribution, Pick};
 pub use frame::{RootFrame, SurfacePoint};
@@ -36,6 +40,5 @@ pub use mesh::{Mesh, MeshError, PolygonMesh};
 pub use pdf::RootPdf;
 pub use sampler::RootSampler;
 pub use sequence::{RootSequence, Spread, hash, radical_inverse};
-pub use subdivide::Density;
 pub use tiles::{TiledDensity, Tiles, tile_number};
 pub use voxels::VoxelRoots;

@@ -266,6 +266,7 @@ impl Mesh {
     }
 
     /// Area of triangle `triangle`, computed in f64.
+    #[inline]
     pub fn area(&self, triangle: usize) -> f64 {
         let [a, b, c] = self.corners(triangle).map(|p| p.as_dvec3());
         (b - a).cross(c - a).length() / 2.0

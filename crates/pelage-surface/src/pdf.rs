@@ -4,7 +4,7 @@
 //! Monte-Carlo methods ask for: sample, density, inverse. Where hair only grows, none of
 //! this is needed, so its table is made on request.
 
-use crate::subdivide::{MAX_DEPTH, Part};
+use crate::part::{MAX_DEPTH, Part};
 use crate::{Mesh, RootSampler, SurfacePoint};
 
 /// Answers how likely roots are on one surface.
@@ -226,7 +226,7 @@ mod tests {
             }
             // Each triangle is integrated over the parts of a fine cut.
             let mut expected = vec![0.0; CELLS * CELLS];
-            let finest = crate::subdivide::parts(6);
+            let finest = crate::part::parts(6);
             let finest = &finest[finest.len() - (1 << 12)..];
             for triangle in 0..mesh.triangles().len() as u32 {
                 let area = mesh.area(triangle as usize) / finest.len() as f64;

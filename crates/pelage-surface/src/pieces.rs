@@ -6,14 +6,9 @@
 //! map), parts that are too deep are named from a *split*: a part of the triangle that
 //! is listed as if it were one more triangle.
 
-use crate::distribution::divide;
-use crate::subdivide::{Part, Piece, first_part, parts};
-use rayon::prelude::*;
+use crate::part::{Part, TABLE_DEPTH, first_part, parts};
+use crate::subdivide::Piece;
 use std::collections::HashMap;
-
-/// Depth to which parts have a table entry, at 12 bytes: 5,461 parts, which stay in the
-/// first-level cache.
-const TABLE_DEPTH: u32 = 6;
 
 /// The pieces of a surface, by their index along the distribution.
 #[derive(Clone, Debug)]
@@ -28,51 +23,42 @@ pub(crate) struct Pieces {
 }
 
 impl Pieces {
-    /// Packs the pieces of `runs` of a mesh of `triangles` triangles; `None` for more
-    /// pieces than 32 bits can name.
-    pub(crate) fn new(runs: &[&[Piece]], triangles: u32) -> Option<Self> {
-        let parts = runs.par_iter().map(|run| run.iter().map(|p| p.part).max());
-        let deepest = depth_of(parts.max().flatten().unwrap_or(0));
-        if deepest <= TABLE_DEPTH
-            && let Some(pieces) = Self::whole(runs, triangles, deepest)
-        {
-            return Some(pieces);
-        }
-        (0..=deepest.min(TABLE_DEPTH))
-            .rev()
-            .find_map(|depth| Self::with_splits(runs, triangles, depth))
+    /// How many bits of a word the parts of depth `deepest` need, if the indices of all
+    /// `triangles` fit beside them: nearly always.
+    pub(crate) fn part_bits(triangles: u32, deepest: u32) -> Option<u32> {
+        let bits = part_bits(deepest);
+        let fits = deepest <= TABLE_DEPTH && triangles as u64 <= hosts(bits);
+        fits.then_some(bits)
     }
 
-    /// Packs `runs`, whose parts are no deeper than `depth`, if triangle and part fit a
-    /// word: nearly always.
-    fn whole(runs: &[&[Piece]], triangles: u32, depth: u32) -> Option<Self> {
-        let part_bits = part_bits(depth);
-        if triangles as u64 > hosts(part_bits) {
-            return None;
-        }
-        let mut codes = vec![0; runs.iter().map(|run| run.len()).sum()];
-        let places = divide(&mut codes, runs.iter().map(|run| run.len()));
-        places.into_par_iter().zip(runs).for_each(|(codes, run)| {
-            for (code, piece) in codes.iter_mut().zip(*run) {
-                *code = piece.triangle << part_bits | piece.part;
-            }
-        });
-        Some(Self {
+    /// Pieces that are packed already, of parts no deeper than `deepest`, with
+    /// [`part_bits`](Self::part_bits).
+    pub(crate) fn packed(codes: Vec<u32>, triangles: u32, deepest: u32) -> Self {
+        Self {
             codes,
-            part_bits,
-            parts: parts(depth),
+            part_bits: part_bits(deepest),
+            parts: parts(deepest),
             triangles,
             splits: Vec::new(),
-        })
+        }
     }
 
-    /// Packs `runs` with part indices down to `depth`, if all hosts can be named.
-    fn with_splits(runs: &[&[Piece]], triangles: u32, depth: u32) -> Option<Self> {
+    /// Packs `pieces` of a mesh of `triangles` triangles; `None` for more than 32 bits can
+    /// name.
+    pub(crate) fn new(pieces: &[Piece], triangles: u32) -> Option<Self> {
+        let deepest = depth_of(pieces.iter().map(|p| p.part).max().unwrap_or(0));
+        (0..=deepest.min(TABLE_DEPTH))
+            .rev()
+            .find_map(|depth| Self::with_splits(pieces, triangles, depth))
+    }
+
+    /// Packs `pieces` with part indices down to `depth`, if all hosts can be named.
+    fn with_splits(pieces: &[Piece], triangles: u32, depth: u32) -> Option<Self> {
         let part_bits = part_bits(depth);
         let mut splits = Vec::new();
         let mut named = HashMap::new();
-        let mut codes = Vec::with_capacity(runs.iter().map(|run| run.len()).sum());
-        for piece in runs.iter().flat_map(|run| run.iter()) {
+        let mut codes = Vec::with_capacity(pieces.len());
+        for piece in pieces {
             let (base, local) = cut_name(piece.part, depth);
             let host = match base {
                 0 => piece.triangle,
@@ -143,28 +129,43 @@ impl Names<'_> {
     /// Triangle and part of piece `index`.
     #[inline(always)]
     pub(crate) fn get(self, index: usize) -> (u32, Part) {
-        let (host, part) = self.host(index);
+        let code = self.codes[index];
+        let (host, part) = (code >> self.part_bits, self.part(code));
         self.below(host, part).unwrap_or((host, part))
     }
 
-    /// The host of piece `index`, and the part of it.
+    /// [`get`](Self::get) for many: what is read first, then what is computed.
     #[inline(always)]
-    pub(crate) fn host(self, index: usize) -> (u32, Part) {
-        let code = self.codes[index];
-        let part = self.parts[(code & ((1 << self.part_bits) - 1)) as usize];
-        (code >> self.part_bits, part)
+    pub(crate) fn get_all<const N: usize>(self, pieces: &[u32; N]) -> ([u32; N], [Part; N]) {
+        let codes = pieces.map(|piece| self.codes[piece as usize]);
+        let mut parts = codes.map(|code| self.part(code));
+        let mut triangles = codes.map(|code| code >> self.part_bits);
+        let highest = triangles.iter().fold(0, |highest, &host| host.max(highest));
+        if highest >= self.triangles {
+            self.leave_splits(&mut triangles, &mut parts);
+        }
+        (triangles, parts)
     }
 
-    /// Whether `host` is a triangle, and its parts are parts of that.
+    /// The part that `code` names, of its host.
     #[inline(always)]
-    pub(crate) fn is_triangle(self, host: u32) -> bool {
-        host < self.triangles
+    fn part(self, code: u32) -> Part {
+        self.parts[(code & ((1 << self.part_bits) - 1)) as usize]
+    }
+
+    /// Names the triangles of those `hosts` that are splits, and their parts in them.
+    #[cold]
+    #[inline(never)]
+    fn leave_splits(self, hosts: &mut [u32], parts: &mut [Part]) {
+        for (host, part) in hosts.iter_mut().zip(parts) {
+            (*host, *part) = self.below(*host, *part).unwrap_or((*host, *part));
+        }
     }
 
     /// The triangle of a split, and the part of it that `part` of the split is; `None`
     /// for a host that is a triangle.
     #[inline]
-    pub(crate) fn below(self, host: u32, part: Part) -> Option<(u32, Part)> {
+    fn below(self, host: u32, part: Part) -> Option<(u32, Part)> {
         let split = host.checked_sub(self.triangles)?;
         let (triangle, base) = self.splits[split as usize];
         Some((triangle, base.part(part)))
@@ -227,8 +228,13 @@ mod tests {
                 .into_iter()
                 .map(|(triangle, part)| Piece { triangle, part })
                 .collect();
-            let runs: Vec<&[Piece]> = found.chunks(7).collect();
-            let pieces = Pieces::new(&runs, triangles).unwrap();
+            let pieces = Pieces::new(&found, triangles).unwrap();
+            let last = pieces.len() as u32 - 1;
+            let eight = std::array::from_fn::<u32, 8, _>(|k| last.min(k as u32));
+            let (triangles, parts) = pieces.names().get_all(&eight);
+            for k in 0..8 {
+                prop_assert_eq!((triangles[k], parts[k]), pieces.get(eight[k] as usize));
+            }
             for (packed, piece) in pieces.iter().zip(&found) {
                 prop_assert_eq!(packed, (piece.triangle, part_named(piece.part)));
             }

@@ -6,12 +6,12 @@
 //! a Hilbert curve through the rest pose, so that the stratification of the first
 //! number becomes one in space, and a region becomes a few intervals of it.
 
+use crate::density::{Density, DensityField};
 use crate::distribution::Distribution;
-use crate::hilbert::hilbert_index;
-use crate::pieces::{Names, Pieces};
-use crate::subdivide::{Density, DensityField, Part, Piece, cut};
+use crate::hilbert::along_curve;
+use crate::pieces::Pieces;
+use crate::subdivide::{Piece, Plan};
 use crate::{Mesh, RootSequence, Spread, SurfacePoint, TiledDensity};
-use rayon::prelude::*;
 
 /// Draws roots on a mesh in proportion to a density.
 #[derive(Clone, Debug)]
@@ -35,12 +35,22 @@ impl RootSampler {
     }
 
     fn by(mesh: &Mesh, density: &impl DensityField, seed: u64) -> Option<Self> {
-        let runs = cut(mesh, &order_along_curve(mesh), density);
-        let weights: Vec<&[f64]> = runs.iter().map(|run| &run.weights[..]).collect();
-        let pieces: Vec<&[Piece]> = runs.iter().map(|run| &run.pieces[..]).collect();
+        let (order, triangles) = (along_curve(mesh), mesh.triangles().len() as u32);
+        let plan = Plan::new(mesh, &order, density);
+        let deepest = plan.deepest();
+        let (pieces, sums) = match Pieces::part_bits(triangles, deepest) {
+            Some(bits) => {
+                let cut = plan.cut(bits);
+                (Pieces::packed(cut.names, triangles, deepest), cut.sums)
+            }
+            None => {
+                let cut = plan.cut::<Piece>(0);
+                (Pieces::new(&cut.names, triangles)?, cut.sums)
+            }
+        };
         Some(Self {
-            distribution: Distribution::of_runs(&weights)?,
-            pieces: Pieces::new(&pieces, mesh.triangles().len() as u32)?,
+            distribution: Distribution::of_sums(sums)?,
+            pieces,
             sequence: RootSequence::new(seed, Spread::default()),
             seed,
         })
@@ -99,30 +109,20 @@ impl RootSampler {
     /// arithmetic of many at once and wait for the memory of many at once.
     #[inline(always)]
     fn lead<const N: usize>(&self, xs: &[u64; N], ys: &[u32; N], places: &mut [SurfacePoint; N]) {
-        let mut rests = [[0; 2]; N];
-        let (mut pieces, mut triangles) = ([0; N], [0; N]);
-        let mut parts = [Part::WHOLE; N];
+        let (mut rests, mut pieces) = ([[0; 2]; N], [0; N]);
         let tables = self.distribution.tables();
         tables.locate_all(xs, &mut pieces, &mut rests);
-        let names = self.pieces.names();
-        let mut splits = false;
-        for k in 0..N {
-            (triangles[k], parts[k]) = names.host(pieces[k]);
-            splits |= !names.is_triangle(triangles[k]);
-        }
-        if splits {
-            leave_splits(names, &mut triangles, &mut parts);
-        }
+        let (triangles, parts) = self.pieces.names().get_all(&pieces);
         // Document 004, 2.1.5: a triangle's area grows with the square of the distance
         // from its first corner.
         let [mut u, mut v] = [[0.0; N]; 2];
         for k in 0..N {
             let [inside, width] = rests[k];
             let root = (inside as f32 / width as f32).sqrt();
-            [u[k], v[k]] = [1.0 - root, fraction(ys[k]) * root];
+            [u[k], v[k]] = parts[k].at(1.0 - root, fraction(ys[k]) * root);
         }
         for k in 0..N {
-            let [u, v] = parts[k].at(u[k], v[k]);
+            let (u, v) = (u[k], v[k]);
             places[k] = SurfacePoint {
                 triangle: triangles[k],
                 barycentric: [(1.0 - u - v).max(0.0), u, v],
@@ -174,34 +174,10 @@ impl RootSampler {
     }
 }
 
-/// Names the triangles of those `hosts` that are splits, and their parts in them.
-#[cold]
-#[inline(never)]
-fn leave_splits(names: Names, hosts: &mut [u32], parts: &mut [Part]) {
-    for (host, part) in hosts.iter_mut().zip(parts) {
-        (*host, *part) = names.below(*host, *part).unwrap_or((*host, *part));
-    }
-}
-
 /// The upper bits of `y` that a float can hold, as a number in 0..1.
 #[inline(always)]
 fn fraction(y: u32) -> f32 {
     (y >> 8) as i32 as f32 * (1.0 / (1 << 24) as f32)
-}
-
-/// Triangles along a Hilbert curve through their centres.
-fn order_along_curve(mesh: &Mesh) -> Vec<u32> {
-    let (low, high) = mesh.bounds();
-    let side = (high - low).max_element().max(f32::MIN_POSITIVE);
-    let mut order: Vec<(u64, u32)> = (0..mesh.triangles().len() as u32)
-        .into_par_iter()
-        .map(|t| {
-            let [a, b, c] = mesh.corners(t as usize);
-            (hilbert_index((a + b + c) / 3.0, low, side), t)
-        })
-        .collect();
-    order.par_sort_unstable();
-    order.into_iter().map(|(_, t)| t).collect()
 }
 
 #[cfg(test)]
@@ -223,10 +199,8 @@ mod tests {
         let mut counts = vec![0f64; triangles];
         (0..n).for_each(|i| counts[sampler.root(i).triangle as usize] += 1.0);
         let mut expected = vec![0.0; triangles];
-        for run in cut(&mesh, &(0..triangles as u32).collect::<Vec<_>>(), &density) {
-            for (piece, weight) in run.pieces.iter().zip(run.weights) {
-                expected[piece.triangle as usize] += weight;
-            }
+        for (piece, (triangle, _)) in sampler.pieces.iter().enumerate() {
+            expected[triangle as usize] += sampler.distribution.probability(piece);
         }
         let scale = n as f64 / expected.iter().sum::<f64>();
         let chi_square: f64 = counts

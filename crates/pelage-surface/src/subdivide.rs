@@ -2,298 +2,275 @@
 //!
 //! Source: document 004, section 2.1.4. A triangle is cut into four by its edge
 //! midpoints, again and again, until a piece covers at most one texel; four pieces of
-//! equal density are merged again. A piece is named by its place in that tree (0 the
-//! whole triangle, 4i + 1 … 4i + 4 its parts), and its corners come from a table.
+//! equal density are merged again.
+//!
+//! How deep a triangle will be cut is known before the map is read, and so is the most
+//! that can come of it. So all pieces get their places at once, and each is written once,
+//! in the form in which it stays; only where some were merged or left out the others
+//! close up.
 
+use crate::Mesh;
+use crate::density::DensityField;
+use crate::part::{MAX_DEPTH, TABLE_DEPTH, Table, first_part};
+use crate::sums::{PADDING, Run, Sums, divide};
 use crate::window::place;
-use crate::{ImageMap, Mesh, Wrap};
 use fearless_simd::{Level, dispatch};
-use pelage_curves::{Vec2, Vec3};
+use pelage_curves::Vec2;
 use rayon::prelude::*;
+use std::ops::Range;
 
-/// Hair density over a surface: a number, or a number times a channel of a map.
-#[derive(Clone, Copy, Debug)]
-pub struct Density<'a> {
-    /// The factor, at least 0.
-    pub value: f32,
-    /// Map, channel and wrap.
-    pub map: Option<(&'a ImageMap, u32, Wrap)>,
-}
-
-/// What cutting asks of a density.
-pub(crate) trait DensityField: Sync {
-    /// The factor everywhere, at least 0.
-    fn value(&self) -> f32;
-
-    /// Columns and rows that the finest image in a triangle with corners at `uv` has in
-    /// a unit of texture; `None` where the density is the same all over the triangle.
-    fn texels(&self, uv: [Vec2; 3]) -> Option<[u32; 2]>;
-
-    /// What the factor is multiplied by at `uv`.
-    fn at(&self, uv: Vec2) -> f32;
-
-    /// Appends [`at`](Self::at) for each of `weights` of the second and third of `corners`.
-    #[inline(always)]
-    fn read(&self, corners: [Vec2; 3], weights: &[[f32; 2]], values: &mut Vec<f32>) {
-        let places = weights.iter().map(|&weights| place(corners, weights));
-        values.extend(places.map(|uv| self.at(uv)));
-    }
-}
-
-impl DensityField for Density<'_> {
-    fn value(&self) -> f32 {
-        self.value
-    }
-
-    #[inline(always)]
-    fn texels(&self, _: [Vec2; 3]) -> Option<[u32; 2]> {
-        self.map.map(|(map, ..)| [map.width(), map.height()])
-    }
-
-    #[inline(always)]
-    fn at(&self, uv: Vec2) -> f32 {
-        let sample =
-            |(map, channel, wrap): (&ImageMap, _, _)| map.sample(uv.x, uv.y, channel, wrap);
-        self.map.map_or(1.0, sample)
-    }
-
-    #[inline(always)]
-    fn read(&self, corners: [Vec2; 3], weights: &[[f32; 2]], values: &mut Vec<f32>) {
-        match self.map {
-            Some((map, channel, wrap)) => {
-                map.sample_triangle(corners, weights, channel, wrap, values)
-            }
-            None => values.resize(values.len() + weights.len(), 1.0),
-        }
-    }
-}
-
-/// Depth at which cutting stops whatever the map: 4^12 pieces a triangle, the
-/// texels of a 4096² map that one triangle fills.
-pub(crate) const MAX_DEPTH: u32 = 12;
-
-/// A part of a triangle in barycentric coordinates: the triangle
-/// `origin, origin + (size, 0), origin + (0, size)`; `size` is negative for the middle
-/// parts, which point the other way. All numbers are dyadic, so exact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Part {
-    pub origin: [f32; 2],
-    pub size: f32,
-}
-
-impl Part {
-    pub(crate) const WHOLE: Part = Part {
-        origin: [0.0, 0.0],
-        size: 1.0,
-    };
-
-    /// The four parts, in an order in which each touches the one before.
-    pub(crate) fn children(self) -> [Part; 4] {
-        let [u, v] = self.origin;
-        let half = self.size / 2.0;
-        [
-            Part {
-                origin: [u, v],
-                size: half,
-            },
-            Part {
-                origin: [u + half, v + half],
-                size: -half,
-            },
-            Part {
-                origin: [u + half, v],
-                size: half,
-            },
-            Part {
-                origin: [u, v + half],
-                size: half,
-            },
-        ]
-    }
-
-    /// The part of this part that `inner` is of the whole.
-    #[inline]
-    pub(crate) fn part(self, inner: Part) -> Part {
-        let along = |k: usize| self.origin[k] + self.size * inner.origin[k];
-        Part {
-            origin: [along(0), along(1)],
-            size: self.size * inner.size,
-        }
-    }
-
-    /// Where `(p, q)` of this part lies in the whole.
-    #[inline]
-    pub(crate) fn at(self, p: f32, q: f32) -> [f32; 2] {
-        [
-            self.origin[0] + self.size * p,
-            self.origin[1] + self.size * q,
-        ]
-    }
-
-    /// Weights of the whole triangle's corners at `(p, q)` of this part.
-    #[inline]
-    pub(crate) fn barycentric(self, p: f32, q: f32) -> [f32; 3] {
-        let [u, v] = self.at(p, q);
-        [(1.0 - u - v).max(0.0), u, v]
-    }
-
-    pub(crate) fn centre(self) -> [f32; 3] {
-        self.barycentric(1.0 / 3.0, 1.0 / 3.0)
-    }
-}
-
-/// Index of the first part of depth `depth`, which is the number of those above it.
-pub(crate) fn first_part(depth: u32) -> usize {
-    ((1usize << (2 * depth)) - 1) / 3
-}
-
-/// All parts down to `depth`, at the index that names them.
-pub(crate) fn parts(depth: u32) -> Vec<Part> {
-    let count = first_part(depth + 1);
-    let mut parts = Vec::with_capacity(count);
-    parts.push(Part::WHOLE);
-    let mut parent = 0;
-    while parts.len() < count {
-        let children = parts[parent].children();
-        parts.extend(children);
-        parent += 1;
-    }
-    parts
+/// What a piece is called.
+pub(crate) trait Name: Copy + Default + Send {
+    /// The name of part `part` of `triangle`, where parts have `part_bits` bits.
+    fn new(triangle: u32, part: u32, part_bits: u32) -> Self;
 }
 
 /// Which part of which triangle a piece of constant density is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Piece {
     pub triangle: u32,
     pub part: u32,
 }
 
-/// The pieces of some triangles, in their order, without those of density zero.
-#[derive(Debug, Default)]
-pub(crate) struct Run {
-    pub pieces: Vec<Piece>,
-    /// Area times density of each.
-    pub weights: Vec<f64>,
+impl Name for Piece {
+    #[inline(always)]
+    fn new(triangle: u32, part: u32, _: u32) -> Self {
+        Self { triangle, part }
+    }
 }
 
-/// Triangles in a run: their pieces stay in the second-level cache.
+/// Both in one word.
+impl Name for u32 {
+    #[inline(always)]
+    fn new(triangle: u32, part: u32, part_bits: u32) -> Self {
+        triangle << part_bits | part
+    }
+}
+
+/// The pieces of a surface, without those of density zero.
+#[derive(Default)]
+pub(crate) struct Cut<N> {
+    pub names: Vec<N>,
+    /// Of area times density.
+    pub sums: Sums,
+}
+
+impl<N: Copy> Cut<N> {
+    fn append(&mut self, other: Self) {
+        if self.names.is_empty() {
+            *self = other;
+        } else {
+            self.names.extend_from_slice(&other.names);
+            self.sums.before.extend_from_slice(&other.sums.before);
+            self.sums.runs.extend_from_slice(&other.sums.runs);
+        }
+    }
+}
+
+/// Triangles in a run: enough to share what it costs to begin one.
 const RUN: usize = 256;
 
-/// The pieces of all triangles in the order given, run by run.
-pub(crate) fn cut(mesh: &Mesh, order: &[u32], density: &impl DensityField) -> Vec<Run> {
-    let table = Table::new();
-    let level = Level::new();
-    order
-        .par_chunks(RUN)
-        .map(|triangles| {
-            let mut cutter = Cutter {
-                mesh,
-                density,
-                table: &table,
-                levels: [const { Vec::new() }; MAX_DEPTH as usize + 1],
-                run: Run::default(),
-            };
-            dispatch!(level, simd => {
-                let _ = simd;
-                for &triangle in triangles {
-                    cutter.cut(triangle);
-                }
-            });
-            cutter.run
-        })
-        .collect()
+/// Pieces after which a run takes no more triangles.
+const DEEP: usize = 1 << 20;
+
+/// Most pieces that get their places at once, unless one run has more: a map that repeats
+/// often over few triangles has far more texels than pieces are left.
+const BATCH: usize = 1 << 24;
+
+/// Triangles in the order in which they are to be cut, and how often each is.
+pub(crate) struct Plan<'a, D> {
+    mesh: &'a Mesh,
+    density: &'a D,
+    order: &'a [u32],
+    depths: Vec<u8>,
 }
 
-/// Depth to which parts come from a table; below, from a part of the table inside
-/// another, which reaches [`MAX_DEPTH`].
-const TABLE_DEPTH: u32 = 6;
-
-/// The parts down to [`TABLE_DEPTH`] and their centres, at the index that names them.
-struct Table {
-    parts: Vec<Part>,
-    centres: Vec<[f32; 2]>,
-}
-
-impl Table {
-    fn new() -> Self {
-        let parts = parts(TABLE_DEPTH);
-        let centre = |part: &Part| part.at(1.0 / 3.0, 1.0 / 3.0);
+impl<'a, D: DensityField> Plan<'a, D> {
+    pub(crate) fn new(mesh: &'a Mesh, order: &'a [u32], density: &'a D) -> Self {
+        let depth = |&triangle: &u32| {
+            let uv = uvs(mesh, triangle);
+            density.texels(uv).map_or(0, |size| depth_for(uv, size))
+        };
         Self {
-            centres: parts.iter().map(centre).collect(),
-            parts,
+            mesh,
+            density,
+            order,
+            depths: order.par_iter().with_min_len(RUN).map(depth).collect(),
         }
     }
 
-    fn parts(&self, depth: u32) -> &[Part] {
-        &self.parts[first_part(depth)..first_part(depth + 1)]
+    /// How often a triangle is cut at most.
+    pub(crate) fn deepest(&self) -> u32 {
+        self.depths.iter().copied().max().unwrap_or(0) as u32
     }
 
-    fn centres(&self, depth: u32) -> &[[f32; 2]] {
-        &self.centres[first_part(depth)..first_part(depth + 1)]
+    /// The pieces of all triangles, in their order.
+    pub(crate) fn cut<N: Name>(&self, part_bits: u32) -> Cut<N> {
+        let runs = self.runs();
+        let mut cut = Cut::default();
+        for batch in batches(&runs) {
+            cut.append(self.cut_batch(batch, part_bits));
+        }
+        cut.sums.before.resize(cut.names.len() + PADDING, 0);
+        cut
     }
+
+    /// What is cut by one task each.
+    fn runs(&self) -> Vec<Stretch> {
+        let mut runs: Vec<Stretch> = Vec::new();
+        for (k, &depth) in self.depths.iter().enumerate() {
+            let room = 1 << (2 * depth);
+            match runs.last_mut() {
+                Some(run) if run.triangles.len() < RUN && run.room < DEEP => {
+                    run.triangles.end += 1;
+                    run.room += room;
+                }
+                _ => runs.push(Stretch {
+                    triangles: k..k + 1,
+                    room,
+                }),
+            }
+        }
+        runs
+    }
+
+    fn cut_batch<N: Name>(&self, batch: &[Stretch], part_bits: u32) -> Cut<N> {
+        let rooms = || batch.iter().map(|run| run.room);
+        let most = rooms().sum();
+        let mut names = vec![N::default(); most];
+        let mut before = vec![0; most + PADDING];
+        let (table, level) = (Table::new(), Level::new());
+        let names_of = divide(&mut names, rooms());
+        let before_of = divide(&mut before, rooms());
+        let runs = (batch, names_of, before_of).into_par_iter();
+        let runs: Vec<Run> = runs
+            .map(|(stretch, names, before)| {
+                let mut cutter = Cutter {
+                    plan: self,
+                    table: &table,
+                    levels: [const { Vec::new() }; MAX_DEPTH as usize + 1],
+                    part_bits,
+                    names,
+                    before,
+                    run: Run { len: 0, sum: 0.0 },
+                };
+                dispatch!(level, simd => {
+                    let _ = simd;
+                    for k in stretch.triangles.clone() {
+                        cutter.cut(self.order[k], self.depths[k] as u32);
+                    }
+                });
+                cutter.run
+            })
+            .collect();
+        close_up(&mut names, rooms(), &runs);
+        close_up(&mut before, rooms(), &runs);
+        Cut {
+            names,
+            sums: Sums { before, runs },
+        }
+    }
+}
+
+/// Triangles that follow each other, and the most pieces they can become.
+struct Stretch {
+    triangles: Range<usize>,
+    room: usize,
+}
+
+/// Runs that are cut at once.
+fn batches(runs: &[Stretch]) -> impl Iterator<Item = &[Stretch]> {
+    let mut left = runs;
+    std::iter::from_fn(move || {
+        let mut room = 0;
+        let fits = |run: &&Stretch| {
+            room += run.room;
+            room <= BATCH
+        };
+        let count = left.iter().take_while(fits).count().max(1);
+        let (batch, later) = left.split_at_checked(count)?;
+        left = later;
+        Some(batch)
+    })
+}
+
+/// Moves the runs, which had `rooms`, together, and leaves room for [`PADDING`].
+fn close_up<T: Copy>(all: &mut Vec<T>, rooms: impl Iterator<Item = usize>, runs: &[Run]) {
+    let (mut from, mut to) = (0, 0);
+    for (room, run) in rooms.zip(runs) {
+        if from != to {
+            all.copy_within(from..from + run.len, to);
+        }
+        (from, to) = (from + room, to + run.len);
+    }
+    all.truncate(to);
+    all.shrink_to(to + PADDING);
+}
+
+fn uvs(mesh: &Mesh, triangle: u32) -> [Vec2; 3] {
+    let uv = mesh.uvs().get(triangle as usize);
+    uv.copied().unwrap_or([Vec2::ZERO; 3])
 }
 
 /// Density of a part whose parts have different ones.
 const MIXED: f32 = f32::NAN;
 
-struct Cutter<'a, D> {
-    mesh: &'a Mesh,
-    density: &'a D,
+/// Cuts the triangles of a run.
+struct Cutter<'a, D, N> {
+    plan: &'a Plan<'a, D>,
     table: &'a Table,
     /// Densities of the parts of each depth.
     levels: [Vec<f32>; MAX_DEPTH as usize + 1],
+    part_bits: u32,
+    names: &'a mut [N],
+    before: &'a mut [u64],
     run: Run,
 }
 
-impl<D: DensityField> Cutter<'_, D> {
+impl<D: DensityField, N: Name> Cutter<'_, D, N> {
     #[inline(always)]
-    fn cut(&mut self, triangle: u32) {
-        let area = self.mesh.area(triangle as usize);
+    fn cut(&mut self, triangle: u32, depth: u32) {
+        let area = self.plan.mesh.area(triangle as usize);
         // A NaN has no area either.
         let has_area = area > 0.0 && area.is_finite();
         if !has_area {
             return;
         }
-        let depth = self.sample(triangle);
+        self.sample(triangle, depth);
         let uncut = (0..depth)
             .rev()
             .find(|&d| !self.merge(d))
             .map_or(0, |d| d + 1);
-        let weight = area * self.density.value() as f64;
-        let (levels, run) = (&self.levels, &mut self.run);
-        // The parts above are all mixed.
-        for part in 0..1 << (2 * uncut) {
-            emit(levels, uncut, part, &mut |d, i, density| {
-                run.pieces.push(Piece {
-                    triangle,
-                    part: (first_part(d) + i) as u32,
-                });
-                let share = weight / (1u64 << (2 * d)) as f64;
-                run.weights.push(share * density as f64);
-            });
+        let weight = area * self.plan.density.value() as f64;
+        if uncut == depth {
+            self.add_all(triangle, depth, weight);
+        } else {
+            // The parts above are all mixed.
+            for part in 0..1 << (2 * uncut) {
+                self.add(triangle, uncut, part, weight);
+            }
         }
     }
 
-    /// Reads the density at the centres of the parts that are small enough for the map;
-    /// returns their depth.
+    /// Reads the density at the centres of the parts of depth `depth`.
     #[inline(always)]
-    fn sample(&mut self, triangle: u32) -> u32 {
-        let all = self.mesh.uvs().get(triangle as usize);
-        let uv = all.copied().unwrap_or([Vec2::ZERO; 3]);
-        let depth = self
-            .density
-            .texels(uv)
-            .map_or(0, |size| depth_for(uv, size));
+    fn sample(&mut self, triangle: u32, depth: u32) {
+        let uv = uvs(self.plan.mesh, triangle);
         let level = &mut self.levels[depth as usize];
-        level.clear();
+        level.resize(1 << (2 * depth), 0.0);
         let within = depth.min(TABLE_DEPTH);
-        for base in self.table.parts(depth - within) {
+        let bases = self.table.parts(depth - within);
+        for (base, level) in bases.iter().zip(level.chunks_exact_mut(1 << (2 * within))) {
             let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
             let corners = corners.map(|[p, q]| place(uv, base.at(p, q)));
-            let centres = self.table.centres(within);
-            self.density.read(corners, centres, level);
+            self.plan
+                .density
+                .read(corners, self.table.centres(within), level);
         }
-        depth
+        // What is less than nothing, or no number, is nothing too.
+        for density in level {
+            *density = density.max(0.0);
+        }
     }
 
     /// Gives the parts of depth `depth` the density that their four parts share, and
@@ -301,33 +278,51 @@ impl<D: DensityField> Cutter<'_, D> {
     #[inline(always)]
     fn merge(&mut self, depth: u32) -> bool {
         let (above, below) = self.levels.split_at_mut(depth as usize + 1);
-        let (above, below) = (&mut above[depth as usize], &below[0]);
+        let (above, below) = (&mut above[depth as usize], below[0].as_chunks().0);
         let mut merged = false;
-        above.clear();
-        above.extend(below.as_chunks().0.iter().map(|&[a, b, c, d]: &[f32; 4]| {
-            let same = a == b && a == c && a == d;
+        above.resize(below.len(), 0.0);
+        for (above, &[a, b, c, d]) in above.iter_mut().zip(below) {
+            let same = (a == b) & (a == c) & (a == d);
             merged |= same;
-            if same { a } else { MIXED }
-        }));
+            *above = if same { a } else { MIXED };
+        }
         merged
     }
-}
 
-/// Calls `visit` with depth, number and density of the largest parts of one density in
-/// part `i` of depth `d`.
-#[inline(always)]
-fn emit(levels: &[Vec<f32>], d: u32, i: usize, visit: &mut impl FnMut(u32, usize, f32)) {
-    let density = levels[d as usize][i];
-    if density.is_nan() {
-        emit_parts(levels, d, i, visit);
-    } else if density > 0.0 {
-        visit(d, i, density);
+    /// Adds all parts of depth `depth` that have a density.
+    #[inline(always)]
+    fn add_all(&mut self, triangle: u32, depth: u32, weight: f64) {
+        let share = weight / (1u64 << (2 * depth)) as f64;
+        let first = first_part(depth) as u32;
+        let Run { mut len, mut sum } = self.run;
+        for (i, &density) in self.levels[depth as usize].iter().enumerate() {
+            // Overwritten where it does not count.
+            self.names[len] = N::new(triangle, first + i as u32, self.part_bits);
+            self.before[len] = sum.to_bits();
+            let weight = share * density as f64;
+            len += (weight > 0.0) as usize;
+            sum += weight;
+        }
+        self.run = Run { len, sum };
     }
-}
 
-fn emit_parts(levels: &[Vec<f32>], d: u32, i: usize, visit: &mut impl FnMut(u32, usize, f32)) {
-    for child in 4 * i..4 * i + 4 {
-        emit(levels, d + 1, child, visit);
+    /// Adds the largest parts of one density in part `i` of depth `d`.
+    fn add(&mut self, triangle: u32, d: u32, i: usize, weight: f64) {
+        let density = self.levels[d as usize][i];
+        if density.is_nan() {
+            for child in 4 * i..4 * i + 4 {
+                self.add(triangle, d + 1, child, weight);
+            }
+            return;
+        }
+        let weight = weight / (1u64 << (2 * d)) as f64 * density as f64;
+        if weight > 0.0 {
+            let part = (first_part(d) + i) as u32;
+            self.names[self.run.len] = N::new(triangle, part, self.part_bits);
+            self.before[self.run.len] = self.run.sum.to_bits();
+            self.run.len += 1;
+            self.run.sum += weight;
+        }
     }
 }
 
@@ -336,24 +331,18 @@ fn emit_parts(levels: &[Vec<f32>], d: u32, i: usize, visit: &mut impl FnMut(u32,
 const LONGEST: f32 = 4.0;
 
 /// Least depth at which a part covers at most one texel (document 004, eq. 2.3).
-fn depth_for(uv: [Vec2; 3], [width, height]: [u32; 2]) -> u32 {
+#[inline(always)]
+fn depth_for(uv: [Vec2; 3], [width, height]: [u32; 2]) -> u8 {
     let texel = |p: Vec2| p * Vec2::new(width as f32, height as f32);
     let [a, b, c] = uv.map(texel);
     let area = (b - a).perp_dot(c - a).abs() / 2.0;
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-    (0..MAX_DEPTH)
-        .find(|&d| {
-            let side = (1u32 << d) as f32;
-            area <= side * side && longest <= LONGEST * side
-        })
-        .unwrap_or(MAX_DEPTH)
-}
-
-/// Centre of a part of a triangle in space.
-pub(crate) fn centre(mesh: &Mesh, triangle: u32, part: Part) -> Vec3 {
-    let [a, b, c] = mesh.corners(triangle as usize);
-    let w = part.centre();
-    a * w[0] + b * w[1] + c * w[2]
+    let depths = 0..MAX_DEPTH as u8;
+    let fits = |d: &u8| {
+        let side = (1u32 << d) as f32;
+        area <= side * side && longest <= LONGEST * side
+    };
+    depths.into_iter().find(fits).unwrap_or(MAX_DEPTH as u8)
 }
 
 #[cfg(test)]
@@ -361,24 +350,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_fill_the_triangle() {
-        let parts = parts(3);
-        for depth in 0..=3u32 {
-            let area: f32 = parts[first_part(depth)..first_part(depth + 1)]
-                .iter()
-                .map(|p| p.size * p.size)
-                .sum();
-            assert_eq!(area, 1.0, "depth {depth}");
-        }
+    fn batches_are_all_runs_in_order_and_no_larger_than_they_may_be() {
+        let rooms = [5, BATCH - 5, 1, 3 * BATCH, BATCH / 2, BATCH / 2, BATCH];
+        let run = |(k, &room): (usize, &usize)| Stretch {
+            triangles: k..k + 1,
+            room,
+        };
+        let runs: Vec<Stretch> = rooms.iter().enumerate().map(run).collect();
+        let counts: Vec<usize> = batches(&runs).map(|batch| batch.len()).collect();
+        assert_eq!(counts, [2, 1, 1, 2, 1]);
+        assert_eq!(batches(&[]).count(), 0);
     }
 
     #[test]
-    fn a_child_is_named_four_times_its_parent_and_its_number() {
-        let parts = parts(3);
-        for parent in 0..5 {
-            for (j, child) in parts[parent].children().into_iter().enumerate() {
-                assert_eq!(parts[4 * parent + 1 + j], child);
-            }
-        }
+    fn what_is_left_of_runs_closes_up() {
+        let run = |len| Run { len, sum: 1.0 };
+        let mut all = vec![1, 2, 0, 3, 0, 0, 4, 5, 6, 7];
+        let rooms = [3, 3, 3];
+        close_up(&mut all, rooms.into_iter(), &[run(2), run(1), run(3)]);
+        assert_eq!(all, [1, 2, 3, 4, 5, 6]);
     }
 }

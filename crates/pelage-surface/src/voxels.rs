@@ -1,6 +1,6 @@
 //! Which hairs belong to which cell of a grid in space.
 
-use crate::{BlueNoise, Mesh, RootSampler, subdivide};
+use crate::{BlueNoise, Mesh, RootSampler, part};
 use pelage_curves::Vec3;
 
 /// The hairs of each cell of a grid over a surface at rest (architecture.md, law 3).
@@ -108,7 +108,7 @@ fn cells_of(
     let centres = sampler
         .pieces()
         .iter()
-        .map(move |(triangle, part)| subdivide::centre(mesh, triangle, part));
+        .map(move |(triangle, part)| part::centre(mesh, triangle, part));
     centres.map(move |centre| cell_of(centre, low, high, resolution))
 }
 

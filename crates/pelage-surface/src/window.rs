@@ -19,8 +19,8 @@ pub(crate) fn place([a, b, c]: [Vec2; 3], [u, v]: [f32; 2]) -> Vec2 {
 }
 
 impl ImageMap {
-    /// Appends [`sample`](Self::sample) at places of a triangle of texture space: for each
-    /// of `weights`, those of its second and third corner.
+    /// Writes [`sample`](Self::sample) at places of a triangle of texture space to `values`:
+    /// for each of `weights`, those of its second and third corner.
     #[inline(always)]
     pub(crate) fn sample_triangle(
         &self,
@@ -28,21 +28,24 @@ impl ImageMap {
         weights: &[[f32; 2]],
         channel: u32,
         wrap: Wrap,
-        values: &mut Vec<f32>,
+        values: &mut [f32],
     ) {
         let Some((window, inside)) = self.window(corners, channel, wrap) else {
-            values.extend(weights.iter().map(|&weights| {
+            for (value, &weights) in values.iter_mut().zip(weights) {
                 let uv = place(corners, weights);
-                self.sample(uv.x, uv.y, channel, wrap)
-            }));
+                *value = self.sample(uv.x, uv.y, channel, wrap);
+            }
             return;
         };
-        for row in weights.chunks(LANES) {
-            let [mut x, mut y] = [[0.0; LANES]; 2];
-            for k in 0..LANES {
-                [x[k], y[k]] = place(inside, row[k.min(row.len() - 1)]).to_array();
-            }
-            values.extend_from_slice(&window.sample(&x, &y)[..row.len()]);
+        let (rows, rest) = weights.as_chunks::<LANES>();
+        let (whole, values) = values.split_at_mut(weights.len() - rest.len());
+        for (row, values) in rows.iter().zip(whole.as_chunks_mut().0) {
+            *values = window.sample(inside, row);
+        }
+        if !rest.is_empty() {
+            let mut row = [[0.0; 2]; LANES];
+            row[..rest.len()].copy_from_slice(rest);
+            values.copy_from_slice(&window.sample(inside, &row)[..rest.len()]);
         }
     }
 
@@ -74,11 +77,14 @@ impl ImageMap {
         let channels = self.channels() as usize;
         let stride = self.width() as usize * channels;
         let channel = channel.min(self.channels() - 1) as usize;
+        let start = first[1] as usize * stride + first[0] as usize * channels + channel;
+        // Of the last row but one; the same number follows a row below.
+        let len = last[1] as usize * stride + (last[0] as usize + 1) * channels + 1;
         let window = Window {
-            texels: &self.texels()
-                [first[1] as usize * stride + first[0] as usize * channels + channel..],
-            channels,
-            stride,
+            upper: &self.texels()[start..][..len],
+            lower: &self.texels()[start + stride..][..len],
+            channels: channels as u32,
+            stride: stride as u32,
             last,
         };
         let inside = |t: [f64; 2]| Vec2::new((t[0] - base[0]) as f32, (t[1] - base[1]) as f32);
@@ -88,33 +94,41 @@ impl ImageMap {
 
 /// Texels of one channel that lie side by side in an image.
 struct Window<'a> {
-    texels: &'a [f32],
-    channels: usize,
-    stride: usize,
+    /// From the first on, without the last row.
+    upper: &'a [f32],
+    /// The same from the second row on.
+    lower: &'a [f32],
+    channels: u32,
+    stride: u32,
     /// Last column and row that has another beside it.
     last: [i32; 2],
 }
 
 impl Window<'_> {
-    /// Bilinear values at `(x, y)`, counted from the centre of the first texel.
+    /// Bilinear values at places of a triangle whose `corners` count from the centre of the
+    /// first texel.
     #[inline(always)]
-    fn sample(&self, x: &[f32; LANES], y: &[f32; LANES]) -> [f32; LANES] {
+    fn sample(&self, corners: [Vec2; 3], weights: &[[f32; 2]; LANES]) -> [f32; LANES] {
         let [mut across, mut down, mut values] = [[0.0; LANES]; 3];
-        let [mut columns, mut rows] = [[0; LANES]; 2];
+        let mut first = [0; LANES];
         for k in 0..LANES {
-            columns[k] = (x[k] as i32).clamp(0, self.last[0]);
-            rows[k] = (y[k] as i32).clamp(0, self.last[1]);
-            across[k] = x[k] - columns[k] as f32;
-            down[k] = y[k] - rows[k] as f32;
+            let [x, y] = place(corners, weights[k]).to_array();
+            let column = (x as i32).clamp(0, self.last[0]);
+            let row = (y as i32).clamp(0, self.last[1]);
+            across[k] = x - column as f32;
+            down[k] = y - row as f32;
+            first[k] = row as u32 * self.stride + column as u32 * self.channels;
         }
         let mut around = [[0.0; LANES]; 4];
+        // The two are of one length, and 64 bits do not overflow: one test is enough.
+        let (upper, lower) = (self.upper, &self.lower[..self.upper.len()]);
         for k in 0..LANES {
-            let first = rows[k] as usize * self.stride + columns[k] as usize * self.channels;
-            let four = &self.texels[first..first + self.stride + self.channels + 1];
-            around[0][k] = four[0];
-            around[1][k] = four[self.channels];
-            around[2][k] = four[self.stride];
-            around[3][k] = four[self.stride + self.channels];
+            let left = first[k] as usize;
+            let right = left + self.channels as usize;
+            around[1][k] = upper[right];
+            around[3][k] = lower[right];
+            around[0][k] = upper[left];
+            around[2][k] = lower[left];
         }
         for k in 0..LANES {
             values[k] = bilinear(around.each_ref().map(|row| row[k]), across[k], down[k]);
@@ -142,9 +156,8 @@ mod tests {
             let inside = |&(u, v): &(f32, f32)| if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] };
             let weights: Vec<[f32; 2]> = weights.iter().map(inside).collect();
             for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
-                let mut values = Vec::new();
+                let mut values = vec![0.0; weights.len()];
                 map.sample_triangle(corners, &weights, 0, wrap, &mut values);
-                prop_assert_eq!(values.len(), weights.len());
                 for (value, [u, v]) in values.into_iter().zip(&weights) {
                     let at = corners[0] * (1.0 - u - v) + corners[1] * *u + corners[2] * *v;
                     let expected = map.sample(at.x, at.y, 0, wrap);

@@ -181,7 +181,13 @@ fn fold(values: &[f32; LANES], with: impl Fn(f32, f32) -> f32) -> f32 {
             *side = with(*side, value);
         }
     }
-    sides.into_iter().fold(values[0], with)
+    // Half with half, since one after the other would each wait for the last.
+    for half in [8, 4, 2, 1] {
+        for k in 0..half {
+            sides[k] = with(sides[k], sides[k + half]);
+        }
+    }
+    sides[0]
 }
 
 /// Where the normals of a cluster point: a cone.

@@ -8,7 +8,7 @@
 //! a cluster in space.
 
 use super::hierarchy::Bounds;
-use crate::subdivide::Part;
+use crate::part::Part;
 use crate::{Mesh, RootSampler};
 use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec3;
@@ -136,10 +136,10 @@ impl<'a> Ground<'a> {
         let row = |row: &[u64]| {
             let mut places = Places::new();
             let last = row.len() - 1;
-            let fractions = Fractions::new(|lane| row[lane.min(last)]);
+            let fractions = std::array::from_fn(|lane| row[lane.min(last)].min(u64::MAX - 1));
             dispatch!(Level::new(), simd => {
                 let _ = simd;
-                self.places(&fractions, &mut places)
+                self.scattered(&fractions, &mut places)
             });
             let found = |(lane, &x): (usize, &u64)| found(&places, lane, x);
             row.iter().enumerate().map(found).collect()
@@ -165,6 +165,24 @@ impl<'a> Ground<'a> {
                     break;
                 }
             }
+        }
+    }
+
+    /// As [`places`](Self::places), of fractions that mostly fall in a piece each: they
+    /// share nothing but the arithmetic.
+    #[inline(always)]
+    fn scattered(&self, xs: &[u64; LANES], places: &mut Places) {
+        let tables = self.sampler.distribution().tables();
+        let runs: [Run; LANES] = std::array::from_fn(|lane| {
+            let (piece, share) = tables.share_around(xs[lane]);
+            self.run(piece, share)
+        });
+        let mut weights = [[0.0; 2]; LANES];
+        for lane in 0..LANES {
+            weights[lane] = along_curve(runs[lane].rest(xs[lane]));
+        }
+        for (lane, run) in runs.iter().enumerate() {
+            run.write(&[weights[lane]], lane, places);
         }
     }
 
@@ -271,23 +289,44 @@ impl Run {
     /// Places a row of fractions, as if all fell in this piece.
     #[inline(always)]
     fn places(&self, xs: &[u64; LANES + ROW], first: usize, places: &mut Places) {
-        let [along, across] = self.sides;
-        for (k, x) in xs[first..first + ROW].iter().enumerate() {
-            let lane = first + k;
-            // Halved, it fits the signed integers that processors turn into floats.
-            let inside = (x.wrapping_sub(self.start) >> 1) as i64 as f64;
-            let [p, q] = along_curve((inside * self.scale) as u32);
-            let u = self.part.origin[0] + self.part.size * p;
-            let v = self.part.origin[1] + self.part.size * q;
-            places.u[lane] = u;
-            places.v[lane] = v;
-            places.x[lane] = self.corner.x + along.x * u + across.x * v;
-            places.y[lane] = self.corner.y + along.y * u + across.y * v;
-            places.z[lane] = self.corner.z + along.z * u + across.z * v;
-            places.closeness[lane] = self.closeness;
-            places.triangle[lane] = self.triangle;
-            places.piece[lane] = self.piece;
+        let mut row = [0; ROW];
+        row.copy_from_slice(&xs[first..first + ROW]);
+        let mut weights = [[0.0; 2]; ROW];
+        for k in 0..ROW {
+            weights[k] = along_curve(self.rest(row[k]));
         }
+        self.write(&weights, first, places);
+    }
+
+    /// How far into the share of the piece `x` is, as a fraction of 2^32.
+    #[inline(always)]
+    fn rest(&self, x: u64) -> u32 {
+        // Halved, it fits the signed integers that processors turn into floats.
+        let inside = (x.wrapping_sub(self.start) >> 1) as i64 as f64;
+        (inside * self.scale) as u32
+    }
+
+    /// Writes the places that have `weights` in the piece, from lane `first` on. By way of
+    /// arrays of their own, whose loops need no test of bounds and so become one step.
+    #[inline(always)]
+    fn write<const N: usize>(&self, weights: &[[f32; 2]; N], first: usize, places: &mut Places) {
+        let ([along, across], corner, part) = (self.sides, self.corner, self.part);
+        let [mut u, mut v, mut x, mut y, mut z] = [[0.0; N]; 5];
+        for k in 0..N {
+            [u[k], v[k]] = part.at(weights[k][0], weights[k][1]);
+            x[k] = corner.x + along.x * u[k] + across.x * v[k];
+            y[k] = corner.y + along.y * u[k] + across.y * v[k];
+            z[k] = corner.z + along.z * u[k] + across.z * v[k];
+        }
+        let lanes = first..first + N;
+        places.u[lanes.clone()].copy_from_slice(&u);
+        places.v[lanes.clone()].copy_from_slice(&v);
+        places.x[lanes.clone()].copy_from_slice(&x);
+        places.y[lanes.clone()].copy_from_slice(&y);
+        places.z[lanes.clone()].copy_from_slice(&z);
+        places.closeness[lanes.clone()].fill(self.closeness);
+        places.triangle[lanes.clone()].fill(self.triangle);
+        places.piece[lanes].fill(self.piece);
     }
 }
 
@@ -317,7 +356,7 @@ impl Site {
 /// place is the centre of the last. All sixteen steps at once: a step adds or, inside an
 /// odd number of middle parts, subtracts a power of two.
 ///
-/// [`Part::children`]: crate::subdivide::Part::children
+/// [`Part::children`]: crate::part::Part::children
 #[inline(always)]
 fn along_curve(rest: u32) -> [f32; 2] {
     let (high, low) = (every_second(rest >> 1), every_second(rest));

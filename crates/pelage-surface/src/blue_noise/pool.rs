@@ -22,8 +22,8 @@ const SMOOTHED: u64 = 8;
 /// Candidates drawn by one task, as many as a chunk of clusters comes from.
 const CHUNK: u64 = 64 * LANES as u64;
 
-/// Roots in a leaf of their hierarchy.
-const LEAF: usize = 8;
+/// Roots in a leaf of their hierarchy: as many as processors compare at once.
+const LEAF: usize = 16;
 
 /// Clusters drawn together, to look for the roots around them once.
 const ROWS: usize = 4;
@@ -215,16 +215,17 @@ impl Keeper {
 
 /// The roots of earlier stages.
 struct Taken {
-    sites: Vec<Site>,
+    leaves: Vec<Leaf>,
     tree: Hierarchy,
 }
 
 impl Taken {
     fn new(sites: Vec<Site>) -> Self {
-        let leaf = |leaf: &[Site]| Bounds::around(leaf.iter().map(Site::bounds));
+        let leaves: Vec<Leaf> = sites.chunks(LEAF).map(Leaf::new).collect();
+        let bounds = |leaf: &Leaf| Bounds::around(leaf.sites().iter().map(Site::bounds));
         Self {
-            tree: Hierarchy::new(sites.chunks(LEAF).map(leaf)),
-            sites,
+            tree: Hierarchy::new(leaves.iter().map(bounds)),
+            leaves,
         }
     }
 
@@ -241,13 +242,61 @@ impl Taken {
             if self.tree.leaf(leaf).gap(&cluster.bounds) >= reach {
                 continue;
             }
-            let end = ((leaf + 1) * LEAF).min(self.sites.len());
-            for site in &self.sites[leaf * LEAF..end] {
-                if site.bounds().gap(&cluster.bounds) < reach {
-                    cluster.push(&mut near, site, ground.normals());
-                }
+            let leaf = &self.leaves[leaf];
+            let mut sites = leaf.near(&cluster.bounds, reach);
+            while sites != 0 {
+                let site = &leaf.sites[sites.trailing_zeros() as usize];
+                cluster.push(&mut near, site, ground.normals());
+                sites &= sites - 1;
             }
         }
         near
+    }
+}
+
+/// Roots that follow each other along the curve, in a form in which all are compared with
+/// a box at once.
+struct Leaf {
+    sites: [Site; LEAF],
+    len: usize,
+    position: [[f32; LEAF]; 3],
+    closeness: [f32; LEAF],
+}
+
+impl Leaf {
+    /// Of 1 to [`LEAF`] roots.
+    fn new(sites: &[Site]) -> Self {
+        let site = |k: usize| sites[k.min(sites.len() - 1)];
+        Self {
+            sites: std::array::from_fn(site),
+            len: sites.len(),
+            position: [0, 1, 2].map(|axis| std::array::from_fn(|k| site(k).position[axis])),
+            closeness: std::array::from_fn(|k| site(k).closeness),
+        }
+    }
+
+    fn sites(&self) -> &[Site] {
+        &self.sites[..self.len]
+    }
+
+    /// Which roots have a [gap](Bounds::gap) to `bounds` less than `reach`: a bit each.
+    #[inline(always)]
+    fn near(&self, bounds: &Bounds, reach: f32) -> u32 {
+        let mut squares = [0.0; LEAF];
+        for (axis, along) in self.position.iter().enumerate() {
+            let (low, high) = (bounds.low[axis], bounds.high[axis]);
+            for (square, x) in squares.iter_mut().zip(along) {
+                let (above, below) = (x - high, low - x);
+                let apart = if above > below { above } else { below };
+                let apart = if apart > 0.0 { apart } else { 0.0 };
+                *square += apart * apart;
+            }
+        }
+        let mut near = [0; LEAF];
+        for k in 0..LEAF {
+            let gap = squares[k] * (self.closeness[k] * bounds.least);
+            near[k] = ((gap < reach) as u32) << k;
+        }
+        near.into_iter().fold(0, |a, b| a | b) & ((1 << self.len) - 1)
     }
 }
