@@ -21,15 +21,25 @@
 mod arc_length;
 mod basis;
 pub mod catmull_rom;
+mod chain;
+mod cubic;
 mod curve;
 mod frames;
 pub mod frenet;
+mod jet;
 mod many;
+mod nurbs;
+mod spline_error;
 
 pub use arc_length::ArcLength;
 pub use basis::{Basis, Wrap};
+pub use chain::Chain;
+pub use cubic::{Cubic, CubicBasis};
 pub use curve::{Curve, CurveError};
 pub use frames::{any_perpendicular, double_reflection};
 pub use glam;
 pub use glam::{DVec3, Vec2, Vec3};
+pub use jet::{Bend, Jet, resample};
 pub use many::{FrameScratch, untwisted_normals};
+pub use nurbs::Nurbs;
+pub use spline_error::SplineError;

@@ -1,0 +1,145 @@
+//! Position and three derivatives of a rational curve.
+
+use super::Nurbs;
+use crate::{Jet, frenet::SpaceCurve};
+use glam::{DVec3, DVec4};
+
+impl Nurbs {
+    /// Position at `u`, clamped to the curve.
+    pub fn position(&self, u: f64) -> DVec3 {
+        let (piece, t) = self.locate(u);
+        self.jet(piece, t)[0]
+    }
+
+    /// Position, first, second and third derivative with respect to `u`, clamped to the
+    /// curve. At a knot they are those of the piece after it.
+    ///
+    /// ```
+    /// use pelage_curves::{DVec3, Nurbs};
+    /// let line = Nurbs::clamped(1, &[DVec3::ZERO, DVec3::X, DVec3::X * 3.0])?;
+    /// assert_eq!(line.derivatives(1.5), [DVec3::X * 2.0, DVec3::X * 2.0, DVec3::ZERO, DVec3::ZERO]);
+    /// # Ok::<(), pelage_curves::SplineError>(())
+    /// ```
+    #[inline]
+    pub fn derivatives(&self, u: f64) -> [DVec3; 4] {
+        let (piece, t) = self.locate(u);
+        let [position, first, second, third] = self.jet(piece, t);
+        let rate = 1.0 / (self.breaks[piece + 1] - self.breaks[piece]);
+        [
+            position,
+            first * rate,
+            second * (rate * rate),
+            third * (rate * rate * rate),
+        ]
+    }
+
+    /// The piece that the curve is in at `u`, and the parameter in 0..=1 inside it; clamped
+    /// to the curve, and its start for a NaN.
+    #[inline]
+    pub fn locate(&self, u: f64) -> (usize, f64) {
+        let last = self.breaks.len() - 2;
+        let (low, high) = self.domain();
+        // Right at once for even knots.
+        let guess = ((u - low) / (high - low) * (last + 1) as f64) as usize;
+        let mut piece = guess.min(last);
+        let right = self.breaks[piece] <= u && u < self.breaks[piece + 1];
+        if !right {
+            let after = self.breaks.partition_point(|&b| b <= u);
+            piece = after.clamp(1, last + 1) - 1;
+        }
+        let (start, end) = (self.breaks[piece], self.breaks[piece + 1]);
+        let t = (u - start) / (end - start);
+        // `max` and `min` take the number where the other is a NaN.
+        (piece, t.max(0.0).min(1.0))
+    }
+
+    /// Homogeneous Bézier points of a piece.
+    #[inline]
+    pub(super) fn piece(&self, piece: usize) -> &[DVec4] {
+        let stride = self.degree.max(3);
+        &self.bezier[piece * stride..][..stride + 1]
+    }
+}
+
+impl SpaceCurve for Nurbs {
+    fn pieces(&self) -> usize {
+        self.breaks.len() - 1
+    }
+
+    fn at(&self, piece: usize, t: f64) -> [DVec3; 3] {
+        let [position, first, second, _] = self.jet(piece, t);
+        [position, first, second]
+    }
+}
+
+impl Jet for Nurbs {
+    #[inline]
+    fn jet(&self, piece: usize, t: f64) -> [DVec3; 4] {
+        let points = self.piece(piece);
+        let jet = homogeneous(points, t);
+        if self.rational {
+            return quotient(jet);
+        }
+        let scale = 1.0 / points[0].w;
+        jet.map(|part| part.truncate() * scale)
+    }
+}
+
+/// Value and three derivatives of the Bézier curve over four `points` at least.
+#[inline]
+fn homogeneous(points: &[DVec4], t: f64) -> [DVec4; 4] {
+    let degree = points.len() - 1;
+    let [a, b, c, d] = match points {
+        &[a, b, c, d] => [a, b, c, d],
+        _ => last_four(points, t),
+    };
+    let s = 1.0 - t;
+    let (ab, bc, cd) = (b - a, c - b, d - c);
+    let (abc, bcd) = (bc - ab, cd - bc);
+    let first = degree as f64;
+    let second = first * (first - 1.0);
+    [
+        a * (s * s * s) + b * (3.0 * s * s * t) + c * (3.0 * s * t * t) + d * (t * t * t),
+        (ab * (s * s) + bc * (2.0 * s * t) + cd * (t * t)) * first,
+        (abc * s + bcd * t) * second,
+        (bcd - abc) * (second * (first - 2.0)),
+    ]
+}
+
+/// The four points that de Casteljau's algorithm leaves before its last three rounds, as
+/// sums over Bernstein polynomials of degree `points - 4`: no memory, and linear.
+fn last_four(points: &[DVec4], t: f64) -> [DVec4; 4] {
+    let n = points.len() - 4;
+    // From the end that t is nearer to, where the first polynomial cannot vanish.
+    let back = t > 0.5;
+    let (near, far) = if back { (t, 1.0 - t) } else { (1.0 - t, t) };
+    let mut bernstein = (0..n).fold(1.0, |power, _| power * near);
+    let mut four = [DVec4::ZERO; 4];
+    for k in 0..=n {
+        let i = if back { n - k } else { k };
+        for (sum, &point) in four.iter_mut().zip(&points[i..]) {
+            *sum += point * bernstein;
+        }
+        bernstein *= (n - k) as f64 / (k + 1) as f64 * (far / near);
+    }
+    four
+}
+
+/// The derivatives of a point divided by its weight, from those of both.
+#[inline]
+fn quotient([a, b, c, d]: [DVec4; 4]) -> [DVec3; 4] {
+    let scale = 1.0 / a.w;
+    let (first, second, third) = (b.w * scale, c.w * scale, d.w * scale);
+    let position = a.truncate() * scale;
+    let velocity = b.truncate() * scale - position * first;
+    let change = c.truncate() * scale - velocity * (2.0 * first) - position * second;
+    [
+        position,
+        velocity,
+        change,
+        d.truncate() * scale
+            - change * (3.0 * first)
+            - velocity * (3.0 * second)
+            - position * third,
+    ]
+}
