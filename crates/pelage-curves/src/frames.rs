@@ -39,20 +39,16 @@ pub fn double_reflection(points: &[Vec3], tangents: &[Vec3], first: Vec3, normal
     normals[0] = normal;
     for i in 1..points.len() {
         let step = points[i] - points[i - 1];
-        normal = next_normal(step, tangents[i - 1], tangents[i], normal);
+        let carried = reflect_twice(step, tangents[i - 1], tangents[i], normal);
+        normal = perpendicular_part(carried, tangents[i]);
         normals[i] = normal;
     }
 }
 
 /// Carries the unit `normal` along `step` from a vertex with unit tangent `from` to one
-/// with `to`.
+/// with `to`; what is left along `to` is rounding.
 #[inline(always)]
-pub(crate) fn next_normal(step: Vec3, from: Vec3, to: Vec3, normal: Vec3) -> Vec3 {
-    perpendicular_part(reflect_twice(step, from, to, normal), to)
-}
-
-#[inline(always)]
-fn reflect_twice(step: Vec3, from: Vec3, to: Vec3, normal: Vec3) -> Vec3 {
+pub(crate) fn reflect_twice(step: Vec3, from: Vec3, to: Vec3, normal: Vec3) -> Vec3 {
     let square = step.length_squared();
     let (tangent_left, normal_left) = if square > 0.0 {
         let scale = 2.0 / square;
@@ -75,14 +71,24 @@ fn reflect_twice(step: Vec3, from: Vec3, to: Vec3, normal: Vec3) -> Vec3 {
 /// Unit part of `vector` perpendicular to the unit `tangent`.
 #[inline(always)]
 pub(crate) fn perpendicular_part(vector: Vec3, tangent: Vec3) -> Vec3 {
-    let part = vector - tangent * vector.dot(tangent);
-    let square = part.length_squared();
-    // Below this the direction is rounding noise of a unit vector.
-    if square > 1e-10 && square.is_finite() {
-        part / square.sqrt()
-    } else {
-        any_perpendicular(tangent)
+    let (part, square) = across(vector, tangent);
+    match has_direction(square) {
+        true => part / square.sqrt(),
+        false => any_perpendicular(tangent),
     }
+}
+
+/// Part of `vector` perpendicular to the unit `tangent`, and the square of its length.
+#[inline(always)]
+pub(crate) fn across(vector: Vec3, tangent: Vec3) -> (Vec3, f32) {
+    let part = vector - tangent * vector.dot(tangent);
+    (part, part.length_squared())
+}
+
+/// Whether a part of a unit vector with this square of its length is more than rounding.
+#[inline(always)]
+pub(crate) fn has_direction(square: f32) -> bool {
+    square > 1e-10 && square.is_finite()
 }
 
 #[cfg(test)]

@@ -4,11 +4,11 @@
 //! in between: the processor idles. Curves do not wait for each other, so [`LANES`] of
 //! them are walked side by side, vertex by vertex, with their coordinates in rows. What
 //! is done at a vertex is the text that serves a single curve ([`catmull_rom::tangent`],
-//! [`next_normal`]), so a curve's frames have the same bits whatever its neighbours and
+//! [`reflect_twice`]), so a curve's frames have the same bits whatever its neighbours and
 //! whatever the processor's vectors.
 
 use crate::catmull_rom;
-use crate::frames::{next_normal, perpendicular_part};
+use crate::frames::{across, has_direction, perpendicular_part, reflect_twice};
 use fearless_simd::{Level, dispatch};
 use glam::Vec3;
 use std::ops::Range;
@@ -126,13 +126,14 @@ impl FrameScratch {
             let next = Row::from_fn(|k| {
                 catmull_rom::tangent(before.get(k), here.get(k), after.get(k), tangent.get(k))
             });
-            normal = match i {
-                0 => Row::from_fn(|k| perpendicular_part(normal.get(k), next.get(k))),
+            let carried = match i {
+                0 => normal,
                 _ => Row::from_fn(|k| {
                     let step = here.get(k) - before.get(k);
-                    next_normal(step, tangent.get(k), next.get(k), normal.get(k))
+                    reflect_twice(step, tangent.get(k), next.get(k), normal.get(k))
                 }),
             };
+            normal = perpendicular_parts(&carried, &next);
             tangent = next;
             self.normals[i] = normal;
         }
@@ -145,6 +146,25 @@ impl FrameScratch {
                 *normal = row.get(lane);
             }
         }
+    }
+}
+
+/// [`perpendicular_part`] of all lanes. Hardly ever has a vector none, so that what stands
+/// in for it is computed only where one does.
+#[inline(always)]
+fn perpendicular_parts(vectors: &Row, tangents: &Row) -> Row {
+    let mut squares = [0.0; LANES];
+    for (k, square) in squares.iter_mut().enumerate() {
+        *square = across(vectors.get(k), tangents.get(k)).1;
+    }
+    let parts = Row::from_fn(|k| {
+        let (part, square) = across(vectors.get(k), tangents.get(k));
+        part / square.sqrt()
+    });
+    let all = squares.iter().fold(true, |all, &s| all & has_direction(s));
+    match all {
+        true => parts,
+        false => Row::from_fn(|k| perpendicular_part(vectors.get(k), tangents.get(k))),
     }
 }
 

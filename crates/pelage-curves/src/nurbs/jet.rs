@@ -2,6 +2,7 @@
 
 use super::Nurbs;
 use crate::{Jet, frenet::SpaceCurve};
+use fearless_simd::{Level, dispatch};
 use glam::{DVec3, DVec4};
 
 impl Nurbs {
@@ -20,10 +21,10 @@ impl Nurbs {
     /// assert_eq!(line.derivatives(1.5), [DVec3::X * 2.0, DVec3::X * 2.0, DVec3::ZERO, DVec3::ZERO]);
     /// # Ok::<(), pelage_curves::SplineError>(())
     /// ```
-    #[inline]
+    #[inline(always)]
     pub fn derivatives(&self, u: f64) -> [DVec3; 4] {
         let (piece, t) = self.locate(u);
-        let [position, first, second, third] = self.jet(piece, t);
+        let [position, first, second, third] = self.piece_jet(piece, t);
         let rate = 1.0 / (self.breaks[piece + 1] - self.breaks[piece]);
         [
             position,
@@ -33,20 +34,31 @@ impl Nurbs {
         ]
     }
 
+    /// [`derivatives`](Self::derivatives) at each of `us`, in any order, to the bit, by the
+    /// processor's widest vectors; `jets` has the length of `us`, or the shorter counts.
+    ///
+    /// ```
+    /// use pelage_curves::{DVec3, Nurbs};
+    /// let curve = Nurbs::bezier(&[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z])?;
+    /// let mut jets = [[DVec3::ZERO; 4]; 2];
+    /// curve.derivatives_at(&[0.25, 0.75], &mut jets);
+    /// assert_eq!(jets[1], curve.derivatives(0.75));
+    /// # Ok::<(), pelage_curves::SplineError>(())
+    /// ```
+    pub fn derivatives_at(&self, us: &[f64], jets: &mut [[DVec3; 4]]) {
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            for (jet, &u) in jets.iter_mut().zip(us) {
+                *jet = self.derivatives(u);
+            }
+        });
+    }
+
     /// The piece that the curve is in at `u`, and the parameter in 0..=1 inside it; clamped
     /// to the curve, and its start for a NaN.
-    #[inline]
+    #[inline(always)]
     pub fn locate(&self, u: f64) -> (usize, f64) {
-        let last = self.breaks.len() - 2;
-        let (low, high) = self.domain();
-        // Right at once for even knots.
-        let guess = ((u - low) / (high - low) * (last + 1) as f64) as usize;
-        let mut piece = guess.min(last);
-        let right = self.breaks[piece] <= u && u < self.breaks[piece + 1];
-        if !right {
-            let after = self.breaks.partition_point(|&b| b <= u);
-            piece = after.clamp(1, last + 1) - 1;
-        }
+        let piece = self.finder.piece(&self.breaks, u);
         let (start, end) = (self.breaks[piece], self.breaks[piece + 1]);
         let t = (u - start) / (end - start);
         // `max` and `min` take the number where the other is a NaN.
@@ -54,7 +66,7 @@ impl Nurbs {
     }
 
     /// Homogeneous Bézier points of a piece.
-    #[inline]
+    #[inline(always)]
     pub(super) fn piece(&self, piece: usize) -> &[DVec4] {
         let stride = self.degree.max(3);
         &self.bezier[piece * stride..][..stride + 1]
@@ -75,6 +87,13 @@ impl SpaceCurve for Nurbs {
 impl Jet for Nurbs {
     #[inline]
     fn jet(&self, piece: usize, t: f64) -> [DVec3; 4] {
+        self.piece_jet(piece, t)
+    }
+}
+
+impl Nurbs {
+    #[inline(always)]
+    fn piece_jet(&self, piece: usize, t: f64) -> [DVec3; 4] {
         let points = self.piece(piece);
         let jet = homogeneous(points, t);
         if self.rational {
@@ -86,7 +105,7 @@ impl Jet for Nurbs {
 }
 
 /// Value and three derivatives of the Bézier curve over four `points` at least.
-#[inline]
+#[inline(always)]
 fn homogeneous(points: &[DVec4], t: f64) -> [DVec4; 4] {
     let degree = points.len() - 1;
     let [a, b, c, d] = match points {
@@ -126,7 +145,7 @@ fn last_four(points: &[DVec4], t: f64) -> [DVec4; 4] {
 }
 
 /// The derivatives of a point divided by its weight, from those of both.
-#[inline]
+#[inline(always)]
 fn quotient([a, b, c, d]: [DVec4; 4]) -> [DVec3; 4] {
     let scale = 1.0 / a.w;
     let (first, second, third) = (b.w * scale, c.w * scale, d.w * scale);

@@ -11,6 +11,7 @@
 //! `knots[degree]..=knots[points]` as they stand.
 
 mod bounds;
+mod finder;
 mod jet;
 mod knots;
 mod pieces;
@@ -42,6 +43,7 @@ pub struct Nurbs {
     controls: Vec<DVec4>,
     /// Distinct knots of the domain, one more than pieces.
     breaks: Vec<f64>,
+    finder: finder::Finder,
     /// Homogeneous Bézier points of the pieces, which share their ends.
     bezier: Vec<DVec4>,
     rational: bool,
@@ -130,6 +132,7 @@ impl Nurbs {
             degree,
             knots,
             controls,
+            finder: finder::Finder::new(&breaks),
             breaks,
             bezier,
             rational,
