@@ -71,24 +71,14 @@ pub(crate) fn reflect_twice(step: Vec3, from: Vec3, to: Vec3, normal: Vec3) -> V
 /// Unit part of `vector` perpendicular to the unit `tangent`.
 #[inline(always)]
 pub(crate) fn perpendicular_part(vector: Vec3, tangent: Vec3) -> Vec3 {
-    let (part, square) = across(vector, tangent);
-    match has_direction(square) {
-        true => part / square.sqrt(),
-        false => any_perpendicular(tangent),
-    }
-}
-
-/// Part of `vector` perpendicular to the unit `tangent`, and the square of its length.
-#[inline(always)]
-pub(crate) fn across(vector: Vec3, tangent: Vec3) -> (Vec3, f32) {
     let part = vector - tangent * vector.dot(tangent);
-    (part, part.length_squared())
-}
-
-/// Whether a part of a unit vector with this square of its length is more than rounding.
-#[inline(always)]
-pub(crate) fn has_direction(square: f32) -> bool {
-    square > 1e-10 && square.is_finite()
+    let square = part.length_squared();
+    // Below this the direction is rounding noise of a unit vector.
+    if square > 1e-10 && square.is_finite() {
+        part / square.sqrt()
+    } else {
+        any_perpendicular(tangent)
+    }
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 //! whatever the processor's vectors.
 
 use crate::catmull_rom;
-use crate::frames::{across, has_direction, perpendicular_part, reflect_twice};
+use crate::frames::{perpendicular_part, reflect_twice};
 use fearless_simd::{Level, dispatch};
 use glam::Vec3;
 use std::ops::Range;
@@ -133,7 +133,7 @@ impl FrameScratch {
                     reflect_twice(step, tangent.get(k), next.get(k), normal.get(k))
                 }),
             };
-            normal = perpendicular_parts(&carried, &next);
+            normal = Row::from_fn(|k| perpendicular_part(carried.get(k), next.get(k)));
             tangent = next;
             self.normals[i] = normal;
         }
@@ -146,25 +146,6 @@ impl FrameScratch {
                 *normal = row.get(lane);
             }
         }
-    }
-}
-
-/// [`perpendicular_part`] of all lanes. Hardly ever has a vector none, so that what stands
-/// in for it is computed only where one does.
-#[inline(always)]
-fn perpendicular_parts(vectors: &Row, tangents: &Row) -> Row {
-    let mut squares = [0.0; LANES];
-    for (k, square) in squares.iter_mut().enumerate() {
-        *square = across(vectors.get(k), tangents.get(k)).1;
-    }
-    let parts = Row::from_fn(|k| {
-        let (part, square) = across(vectors.get(k), tangents.get(k));
-        part / square.sqrt()
-    });
-    let all = squares.iter().fold(true, |all, &s| all & has_direction(s));
-    match all {
-        true => parts,
-        false => Row::from_fn(|k| perpendicular_part(vectors.get(k), tangents.get(k))),
     }
 }
 
