@@ -31,6 +31,7 @@ mod jet;
 mod many;
 mod nurbs;
 mod spline_error;
+pub mod tube;
 
 pub use arc_length::ArcLength;
 pub use basis::{Basis, Wrap};
