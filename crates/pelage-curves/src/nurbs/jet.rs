@@ -17,8 +17,11 @@ impl Nurbs {
     ///
     /// ```
     /// use pelage_curves::{DVec3, Nurbs};
-    /// let line = Nurbs::clamped(1, &[DVec3::ZERO, DVec3::X, DVec3::X * 3.0])?;
-    /// assert_eq!(line.derivatives(1.5), [DVec3::X * 2.0, DVec3::X * 2.0, DVec3::ZERO, DVec3::ZERO]);
+    /// let parabola = Nurbs::clamped(2, &[DVec3::ZERO, DVec3::X, DVec3::X * 2.0 + DVec3::Y])?;
+    /// let [position, first, second, third] = parabola.derivatives(0.5);
+    /// assert!(position.distance(DVec3::new(1.0, 0.25, 0.0)) < 1e-15);
+    /// assert!(first.distance(DVec3::new(2.0, 1.0, 0.0)) < 1e-14);
+    /// assert!(second.distance(DVec3::Y * 2.0) < 1e-14 && third.length() < 1e-13);
     /// # Ok::<(), pelage_curves::SplineError>(())
     /// ```
     #[inline(always)]
@@ -61,8 +64,8 @@ impl Nurbs {
         let piece = self.finder.piece(&self.breaks, u);
         let (start, end) = (self.breaks[piece], self.breaks[piece + 1]);
         let t = (u - start) / (end - start);
-        // `max` and `min` take the number where the other is a NaN.
-        (piece, t.max(0.0).min(1.0))
+        // A NaN is not above 0.
+        (piece, if t > 0.0 { t.min(1.0) } else { 0.0 })
     }
 
     /// Homogeneous Bézier points of a piece.

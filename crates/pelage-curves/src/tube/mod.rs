@@ -140,4 +140,6 @@ fn round(rings: &mut Vec<Ring>, count: usize) {
 }
 
 #[cfg(test)]
+mod bad_tests;
+#[cfg(test)]
 mod tests;

@@ -49,7 +49,7 @@ pub(super) fn along(
     match tube.rings {
         Rings::Even(parts) => even(curve, tube, radius, parts),
         Rings::Bends { angle, most } => {
-            if !(angle > 0.0) {
+            if angle.is_nan() || angle <= 0.0 {
                 return Err(TubeError::Angle { found: angle });
             }
             let most = most.clamp(1, MOST / FINER);
@@ -78,8 +78,7 @@ fn even(
         let gap = samples[0]
             .position
             .distance(samples[samples.len() - 1].position);
-        // Written so that a NaN is refused.
-        if !(gap <= 1e-6 * length) {
+        if gap > 1e-6 * length {
             return Err(TubeError::NotClosed { gap });
         }
         close(&samples, &mut frames);
@@ -88,7 +87,7 @@ fn even(
     for (i, (sample, frame)) in samples.iter().zip(frames).enumerate() {
         let at = i as f64 / (samples.len() - 1) as f64;
         let radius = radius(at);
-        if !(radius >= 0.0 && radius.is_finite()) {
+        if !radius.is_finite() || radius < 0.0 {
             return Err(TubeError::Radius { at, found: radius });
         }
         rings.push(Ring {

@@ -1,5 +1,4 @@
 use super::*;
-use crate::frenet::FrenetError;
 use crate::{Chain, Nurbs, Vec3};
 use glam::DVec2;
 use proptest::prelude::*;
@@ -308,92 +307,6 @@ fn a_section_with_points_on_straight_edges_and_notches_closes_with_its_own_area(
         assert!((volume(&mesh) - 3.0).abs() < 1e-6);
         points.reverse();
     }
-}
-
-#[test]
-fn sections_that_are_none_are_told() {
-    let make = |points: &[[f64; 2]]| {
-        let points: Vec<DVec2> = points.iter().map(|&p| p.into()).collect();
-        Section::new(&points, 1.0).err()
-    };
-    let touching = |first, second| Some(TubeError::SelfTouching { first, second });
-    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    assert_eq!(make(&square), None);
-    assert_eq!(make(&square[..2]), Some(TubeError::Points { found: 2 }));
-    assert_eq!(
-        make(&[[0.0; 2]; 5000]),
-        Some(TubeError::Points { found: 5000 })
-    );
-    assert_eq!(
-        make(&[[0.0, 0.0], [1.0, f64::NAN], [1.0, 1.0]]),
-        Some(TubeError::Section { index: 1 })
-    );
-    assert_eq!(
-        make(&[square[0], square[2], square[1], square[3]]),
-        touching(0, 2)
-    );
-    assert_eq!(
-        make(&[square[0], square[1], square[1], square[2]]),
-        touching(0, 1)
-    );
-    assert_eq!(make(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), touching(0, 2));
-    // Two squares that meet in a point.
-    let eight = [
-        [0.0, 0.0],
-        [1.0, 0.0],
-        [1.0, 1.0],
-        [2.0, 1.0],
-        [2.0, 2.0],
-        [1.0, 2.0],
-        [1.0, 1.0],
-        [0.0, 1.0],
-    ];
-    assert_eq!(make(&eight), touching(1, 5));
-    assert!(Section::circle(2).is_err() && Section::circle(usize::MAX).is_err());
-}
-
-#[test]
-fn tubes_that_are_none_are_told() {
-    let (section, line) = (Section::circle(5).unwrap(), line(DVec3::Z));
-    let sweep = |tube: Tube, radius: f64| tube.sweep(&line, &section, |_| radius).err();
-    for bad in [-1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(
-            sweep(even(3), bad),
-            Some(TubeError::Radius { at: 0.0, .. })
-        ));
-    }
-    let bends = |angle| Tube {
-        rings: Rings::Bends { angle, most: 9 },
-        ..Tube::default()
-    };
-    for bad in [0.0, -1.0, f64::NAN] {
-        assert!(matches!(
-            sweep(bends(bad), 1.0),
-            Some(TubeError::Angle { .. })
-        ));
-    }
-    let closed = Tube {
-        closed: true,
-        ..even(3)
-    };
-    assert_eq!(sweep(closed, 1.0), Some(TubeError::NotClosed { gap: 1.0 }));
-    assert_eq!(sweep(even(3), 1e90), Some(TubeError::TooFar));
-    let many = sweep(even(1_000_000_000), 1.0);
-    assert!(matches!(many, Some(TubeError::TooMany { .. })), "{many:?}");
-    struct Bad;
-    impl SpaceCurve for Bad {
-        fn pieces(&self) -> usize {
-            1
-        }
-        fn at(&self, _: usize, _: f64) -> [DVec3; 3] {
-            [DVec3::NAN; 3]
-        }
-    }
-    let found = even(3).sweep(&Bad, &section, |_| 1.0).err();
-    assert_eq!(
-        found,
-        Some(TubeError::Curve(FrenetError::NotFinite { index: 0 }))
-    );
 }
 
 #[test]
