@@ -99,6 +99,24 @@ proptest! {
     }
 }
 
+proptest! {
+    /// Cusps, and pieces of very unequal length among the coarse ones.
+    #[test]
+    fn what_is_cut_off_at_a_length_has_that_length_to_1e_10(
+        coarse in coarse(), fine in points(2), alpha in 0.0f64..=1.0, at in 0.0f64..1.0,
+    ) {
+        for p in [coarse, fine] {
+            let chain = Chain::catmull_rom(&p, alpha).unwrap();
+            let measure = Measure::new(&chain).unwrap();
+            let total = measure.total();
+            let (piece, t) = measure.locate(&chain, total * at);
+            let [left, right] = chain.split(piece, t).map(|c| Measure::new(&c).unwrap().total());
+            prop_assert!((left + right - total).abs() <= 1e-10 * total);
+            prop_assert!((left - total * at).abs() <= 1e-10 * total, "{left} {}", total * at);
+        }
+    }
+}
+
 #[test]
 fn curvature_and_torsion_of_a_piece_of_a_helix_come_out_to_the_second_order() {
     let mut before = f64::INFINITY;
@@ -166,4 +184,17 @@ fn what_is_no_chain_is_told() {
         Chain::bezier(&[DVec3::X; 6]),
         Err(SplineError::Points { found: 6, .. })
     ));
+}
+
+#[test]
+fn ten_million_vertices_are_a_curve() {
+    let at = |i: usize| (i % 1000) as f64;
+    let p: Vec<DVec3> = (0..10_000_000)
+        .map(|i| DVec3::new(at(i), at(i / 1000), 0.0))
+        .collect();
+    let chain = Chain::catmull_rom(&p, 0.5).unwrap();
+    assert_eq!(chain.pieces(), p.len() - 1);
+    assert!(chain.points().iter().all(|p| p.is_finite()));
+    let (low, high) = chain.bounds();
+    assert!(low.min_element() > -9.0 && high.x < 1009.0 && high.y < 10_009.0);
 }

@@ -29,7 +29,7 @@ pub fn twists(samples: &[Sample], frames: &[Frame]) -> Vec<f64> {
 /// Spread evenly, that angle costs the least twist; left alone it would be a seam. Nothing
 /// happens to fewer than two frames, or to a curve without length but that its last frame
 /// becomes the first.
-pub fn close(samples: &[Sample], frames: &mut [Frame]) -> f64 {
+pub fn close_frames(samples: &[Sample], frames: &mut [Frame]) -> f64 {
     let (&[first, .., last], &[start, .., end]) = (&*frames, samples) else {
         return 0.0;
     };

@@ -13,7 +13,7 @@
 //!
 //! What a rule does not define is *carried*: the frame before, turned with the tangent by
 //! the smallest rotation. So every rule gives an orthonormal, right-handed frame for every
-//! finite sample. [`twists`] measures how far frames turn about the tangent, and [`close`]
+//! finite sample. [`twists`] measures how far frames turn about the tangent, and [`close_frames`]
 //! makes the ends of a closed curve meet.
 
 mod carry;
@@ -22,7 +22,7 @@ mod closing;
 use crate::frenet::{Frame, FrenetError, Sample, perpendicular, tangents};
 use glam::DVec3;
 
-pub use closing::{close, twists};
+pub use closing::{close_frames, twists};
 
 /// How the frames of a curve are chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -267,7 +267,7 @@ fn closing_spreads_the_angle_evenly_and_makes_the_ends_meet() {
         let mut frames = rule.frames(&samples, DVec3::Z).unwrap();
         let seam = frames[0].normal.distance(frames[600].normal);
         assert!(seam > 0.1, "nothing to close: {seam}");
-        let whole = close(&samples, &mut frames);
+        let whole = close_frames(&samples, &mut frames);
         assert_eq!(frames[0], frames[600]);
         let twists = twists(&samples, &frames);
         for twist in &twists {
@@ -276,7 +276,7 @@ fn closing_spreads_the_angle_evenly_and_makes_the_ends_meet() {
     }
     // Frenet frames of a smooth curve meet by themselves.
     let mut frames = Framing::Frenet.frames(&samples, DVec3::Z).unwrap();
-    assert!(close(&samples, &mut frames).abs() < 1e-5);
+    assert!(close_frames(&samples, &mut frames).abs() < 1e-5);
 }
 
 proptest! {
@@ -299,7 +299,7 @@ proptest! {
         for rule in [Framing::Frenet, up, Framing::Propagated, Framing::DoubleReflection] {
             let mut frames = rule.frames(&samples, vector(&first)).unwrap();
             if closed {
-                prop_assert!(close(&samples, &mut frames).is_finite());
+                prop_assert!(close_frames(&samples, &mut frames).is_finite());
             }
             prop_assert_eq!(frames.len(), samples.len());
             for f in &frames {

@@ -1,7 +1,7 @@
 //! Where along a curve the rings of a tube stand.
 
 use super::{Tube, TubeError};
-use crate::framing::{close, twists};
+use crate::framing::{close_frames, twists};
 use crate::frenet::{Frame, Sample, SpaceCurve};
 use glam::DVec3;
 
@@ -81,7 +81,7 @@ fn even(
         if gap > 1e-6 * length {
             return Err(TubeError::NotClosed { gap });
         }
-        close(&samples, &mut frames);
+        close_frames(&samples, &mut frames);
     }
     let mut rings = Vec::with_capacity(samples.len());
     for (i, (sample, frame)) in samples.iter().zip(frames).enumerate() {
