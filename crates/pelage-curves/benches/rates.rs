@@ -1,15 +1,19 @@
-//! Rates of frames and NURBS on one core: `cargo bench -p pelage-curves`.
+//! Rates of frames, NURBS and tubes on one core: `cargo bench -p pelage-curves`.
 
-use pelage_curves::{DVec3, FrameScratch, Jet, Nurbs, Vec3, untwisted_normals};
+use pelage_curves::frenet::{Measure, Sample};
+use pelage_curves::tube::{Rings, Section, Tube};
+use pelage_curves::{Chain, DVec3, FrameScratch, Framing, Jet, Nurbs, Vec3, untwisted_normals};
 use std::hint::black_box;
 use std::time::Instant;
 
 /// How often each is measured; the best counts, as other work on the machine only slows.
 const ROUNDS: usize = 15;
 
-fn main() -> Result<(), pelage_curves::SplineError> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     frames();
-    nurbs()
+    nurbs()?;
+    tubes()?;
+    Ok(())
 }
 
 /// Millions a second at best.
@@ -87,5 +91,40 @@ fn nurbs() -> Result<(), pelage_curves::SplineError> {
             }
         });
     }
+    Ok(())
+}
+
+/// One long curl, in f64.
+fn tubes() -> Result<(), Box<dyn std::error::Error>> {
+    let at = |i: usize| i as f64 * 0.4;
+    let points: Vec<DVec3> = (0..2000)
+        .map(|i| DVec3::new(libm::cos(at(i)), libm::sin(at(i)), 0.1 * at(i)))
+        .collect();
+    let curve = Chain::catmull_rom(&points, 0.5)?;
+    let samples = Sample::along(&curve, 20_000)?;
+    rate("arc length, pieces", 1999, || {
+        black_box(Measure::new(&curve)).ok();
+    });
+    rate("even samples by arc length", 20_000, || {
+        black_box(Sample::along(&curve, 20_000)).ok();
+    });
+    for rule in [
+        Framing::Frenet,
+        Framing::UpAxis(DVec3::Z),
+        Framing::Propagated,
+        Framing::DoubleReflection,
+    ] {
+        rate(&format!("{rule:?}, f64, one curve"), samples.len(), || {
+            black_box(rule.frames(&samples, DVec3::Z)).ok();
+        });
+    }
+    let section = Section::circle(16)?;
+    let tube = Tube {
+        rings: Rings::Even(20_000),
+        ..Tube::default()
+    };
+    rate("tube, vertices", 20_001 * 17, || {
+        black_box(tube.sweep(&curve, &section, |t| 0.1 * (1.0 - t))).ok();
+    });
     Ok(())
 }

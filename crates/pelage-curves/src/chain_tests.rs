@@ -198,3 +198,20 @@ fn ten_million_vertices_are_a_curve() {
     let (low, high) = chain.bounds();
     assert!(low.min_element() > -9.0 && high.x < 1009.0 && high.y < 10_009.0);
 }
+
+#[test]
+fn a_line_that_folds_has_the_length_of_all_its_ways_to_1e_10() {
+    for i in 0..2000 {
+        let fold = 8.0 + i as f64 * 1e-2;
+        let points = [0.0, fold, 1.0 - fold * 1.1, 1.0].map(|x| DVec3::new(x, x, 0.0));
+        let chain = Chain::bezier(&points).unwrap();
+        // There to the highest, back to the lowest, there to the end.
+        let (low, high) = chain.bounds();
+        let exact = (high.x + (high.x - low.x) + (1.0 - low.x)) * std::f64::consts::SQRT_2;
+        let total = Measure::new(&chain).unwrap().total();
+        assert!(
+            (total / exact - 1.0).abs() < 1e-10,
+            "{fold}: {total} {exact}"
+        );
+    }
+}
