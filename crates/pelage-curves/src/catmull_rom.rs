@@ -129,11 +129,13 @@ pub fn tangents(points: &[Vec3], tangents: &mut [Vec3]) {
 /// Unit tangent at `here` between its neighbours; `previous` where all three coincide.
 #[inline(always)]
 pub(crate) fn tangent(before: Vec3, here: Vec3, after: Vec3, previous: Vec3) -> Vec3 {
-    let unit = Vec3::try_normalize;
-    unit(after - before)
-        .or_else(|| unit(after - here))
-        .or_else(|| unit(here - before))
-        .unwrap_or(previous)
+    // The vector is chosen first, so that vectors of lanes pay for one root and one division.
+    let usable = |v: Vec3| v.length_squared() > 0.0 && v.length_squared() < f32::INFINITY;
+    let (across, outgoing, incoming) = (after - before, after - here, here - before);
+    let edge = if usable(outgoing) { outgoing } else { incoming };
+    let chosen = if usable(across) { across } else { edge };
+    let unit = chosen * chosen.length_recip();
+    if usable(chosen) { unit } else { previous }
 }
 
 /// Smallest axis-aligned box `(min, max)` around the curve itself, without widths.

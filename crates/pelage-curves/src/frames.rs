@@ -39,20 +39,16 @@ pub fn double_reflection(points: &[Vec3], tangents: &[Vec3], first: Vec3, normal
     normals[0] = normal;
     for i in 1..points.len() {
         let step = points[i] - points[i - 1];
-        normal = next_normal(step, tangents[i - 1], tangents[i], normal);
+        let carried = reflect_twice(step, tangents[i - 1], tangents[i], normal);
+        normal = perpendicular_part(carried, tangents[i]);
         normals[i] = normal;
     }
 }
 
 /// Carries the unit `normal` along `step` from a vertex with unit tangent `from` to one
-/// with `to`.
+/// with `to`; what is left along `to` is rounding.
 #[inline(always)]
-pub(crate) fn next_normal(step: Vec3, from: Vec3, to: Vec3, normal: Vec3) -> Vec3 {
-    perpendicular_part(reflect_twice(step, from, to, normal), to)
-}
-
-#[inline(always)]
-fn reflect_twice(step: Vec3, from: Vec3, to: Vec3, normal: Vec3) -> Vec3 {
+pub(crate) fn reflect_twice(step: Vec3, from: Vec3, to: Vec3, normal: Vec3) -> Vec3 {
     let square = step.length_squared();
     let (tangent_left, normal_left) = if square > 0.0 {
         let scale = 2.0 / square;

@@ -4,13 +4,13 @@
 //! in between: the processor idles. Curves do not wait for each other, so [`LANES`] of
 //! them are walked side by side, vertex by vertex, with their coordinates in rows. What
 //! is done at a vertex is the text that serves a single curve ([`catmull_rom::tangent`],
-//! [`next_normal`]), so a curve's frames have the same bits whatever its neighbours and
+//! [`reflect_twice`]), so a curve's frames have the same bits whatever its neighbours and
 //! whatever the processor's vectors.
 
 use crate::catmull_rom;
-use crate::frames::{next_normal, perpendicular_part};
+use crate::frames::{perpendicular_part, reflect_twice};
 use fearless_simd::{Level, dispatch};
-use glam::Vec3;
+use glam::{Mat4, Vec3, Vec4};
 use std::ops::Range;
 
 /// Curves side by side: two of the widest common vectors, so that one's roots and
@@ -33,6 +33,20 @@ impl Row {
     fn set(&mut self, lane: usize, vector: Vec3) {
         for (row, x) in self.0.iter_mut().zip(vector.to_array()) {
             row[lane] = x;
+        }
+    }
+
+    /// x, y and z of four neighbouring lanes.
+    #[inline(always)]
+    fn four(&self, four: usize) -> Mat4 {
+        let column = |axis: usize| Vec4::from_slice(&self.0[axis][4 * four..]);
+        Mat4::from_cols(column(0), column(1), column(2), Vec4::ZERO)
+    }
+
+    #[inline(always)]
+    fn set_four(&mut self, four: usize, columns: Mat4) {
+        for (axis, row) in self.0.iter_mut().enumerate() {
+            columns.col(axis).write_to_slice(&mut row[4 * four..]);
         }
     }
 
@@ -98,20 +112,17 @@ impl FrameScratch {
     /// frames before it as they are: the ends of a curve are duplicated anyway.
     #[inline(always)]
     fn load(&mut self, points: &[Vec3], ranges: &[Range<usize>; LANES]) {
-        let longest = ranges.iter().map(Range::len).max().unwrap_or(0);
-        self.points.clear();
+        let curves: [&[Vec3]; LANES] = std::array::from_fn(|lane| &points[ranges[lane].clone()]);
+        let longest = curves.iter().map(|curve| curve.len()).max().unwrap_or(0);
         self.points.resize(longest, Row::ZERO);
         self.normals.resize(longest, Row::ZERO);
-        for (lane, range) in ranges.iter().enumerate() {
-            let curve = &points[range.clone()];
-            let Some(&last) = curve.last() else {
-                continue;
-            };
-            let (own, rest) = self.points.split_at_mut(curve.len());
-            for (row, &point) in own.iter_mut().zip(curve) {
-                row.set(lane, point);
+        for (i, row) in self.points.iter_mut().enumerate() {
+            for (four, curves) in curves.chunks_exact(4).enumerate() {
+                let vertex = |curve: &[Vec3]| curve.get(i).or(curve.last()).copied();
+                let column = |k: usize| vertex(curves[k]).unwrap_or(Vec3::ZERO).extend(0.0);
+                let columns = Mat4::from_cols(column(0), column(1), column(2), column(3));
+                row.set_four(four, columns.transpose());
             }
-            rest.iter_mut().for_each(|row| row.set(lane, last));
         }
     }
 
@@ -126,13 +137,14 @@ impl FrameScratch {
             let next = Row::from_fn(|k| {
                 catmull_rom::tangent(before.get(k), here.get(k), after.get(k), tangent.get(k))
             });
-            normal = match i {
-                0 => Row::from_fn(|k| perpendicular_part(normal.get(k), next.get(k))),
+            let carried = match i {
+                0 => normal,
                 _ => Row::from_fn(|k| {
                     let step = here.get(k) - before.get(k);
-                    next_normal(step, tangent.get(k), next.get(k), normal.get(k))
+                    reflect_twice(step, tangent.get(k), next.get(k), normal.get(k))
                 }),
             };
+            normal = Row::from_fn(|k| perpendicular_part(carried.get(k), next.get(k)));
             tangent = next;
             self.normals[i] = normal;
         }
@@ -140,9 +152,12 @@ impl FrameScratch {
 
     #[inline(always)]
     fn store(&self, ranges: &[Range<usize>], normals: &mut [Vec3]) {
-        for (lane, range) in ranges.iter().enumerate() {
-            for (normal, row) in normals[range.clone()].iter_mut().zip(&self.normals) {
-                *normal = row.get(lane);
+        for (i, row) in self.normals.iter().enumerate() {
+            for (four, ranges) in ranges.chunks(4).enumerate() {
+                let columns = row.four(four).transpose();
+                for (k, range) in ranges.iter().enumerate().filter(|(_, r)| i < r.len()) {
+                    normals[range.start + i] = columns.col(k).truncate();
+                }
             }
         }
     }

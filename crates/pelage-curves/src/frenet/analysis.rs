@@ -62,7 +62,7 @@ impl Sample {
     }
 
     /// Unit normal, if the curve bends here; `length` is that of the whole curve.
-    fn normal(&self, tangent: DVec3, length: f64) -> Option<DVec3> {
+    pub(crate) fn normal(&self, tangent: DVec3, length: f64) -> Option<DVec3> {
         let across = self.second - tangent * self.second.dot(tangent);
         let turn = across.length() / self.first.length_squared() * length;
         // A NaN is no bend either.
@@ -73,7 +73,7 @@ impl Sample {
         }
     }
 
-    fn is_finite(&self) -> bool {
+    pub(crate) fn is_finite(&self) -> bool {
         let vectors = [self.position, self.first, self.second];
         self.s.is_finite() && vectors.iter().all(|v| v.is_finite())
     }
@@ -149,7 +149,7 @@ fn frames(samples: &[Sample]) -> Vec<Frame> {
 }
 
 /// Unit tangents; where the curve stands still that before it, else the first one.
-fn tangents(samples: &[Sample]) -> Vec<DVec3> {
+pub(crate) fn tangents(samples: &[Sample]) -> Vec<DVec3> {
     let own = samples.iter().map(|sample| unit(sample.first));
     let mut before = own.clone().flatten().next().unwrap_or(DVec3::Z);
     own.map(|tangent| {

@@ -57,7 +57,7 @@ impl Frame {
 }
 
 /// `vector` as a unit vector, unless it is too small or too large to tell.
-pub(super) fn unit(vector: DVec3) -> Option<DVec3> {
+pub(crate) fn unit(vector: DVec3) -> Option<DVec3> {
     // Brings the square into range first: lengths may be 1e-200.
     let largest = vector.abs().max_element();
     let scaled = vector / largest;
@@ -65,7 +65,7 @@ pub(super) fn unit(vector: DVec3) -> Option<DVec3> {
 }
 
 /// Unit part of `vector` perpendicular to the unit `tangent`, if more than rounding.
-pub(super) fn perpendicular(vector: DVec3, tangent: DVec3) -> Option<DVec3> {
+pub(crate) fn perpendicular(vector: DVec3, tangent: DVec3) -> Option<DVec3> {
     let vector = unit(vector)?;
     let part = vector - tangent * vector.dot(tangent);
     if part.length_squared() < 1e-24 {

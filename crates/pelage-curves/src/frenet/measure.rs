@@ -5,6 +5,7 @@
 //! with the whole.
 
 use super::FrenetError;
+use super::frame::unit;
 use glam::DVec3;
 
 /// A curve in pieces, each over a parameter t in 0..=1.
@@ -40,14 +41,14 @@ impl Measure {
         let mut spans = vec![(0, 0.0, 0.0)];
         let mut total = 0.0;
         for piece in 0..curve.pieces() {
-            let speed = |t: f64| length(curve.at(piece, t)[1]);
-            let whole = quadrature(&speed, 0.0, 1.0);
+            let velocity = |t: f64| curve.at(piece, t)[1];
+            let whole = quadrature(&|t| length(velocity(t)), 0.0, 1.0);
             let least = whole * 1e-14;
             let mut end = |t: f64, part: f64| {
                 total += part;
                 spans.push((piece, t, total));
             };
-            halve(&speed, [0.0, 1.0], whole, least, DEEPEST, &mut end);
+            halve(&velocity, [0.0, 1.0], whole, least, DEEPEST, &mut end);
             if !total.is_finite() {
                 return Err(FrenetError::NotFinite { index: piece });
             }
@@ -96,24 +97,36 @@ fn length(vector: DVec3) -> f64 {
 
 /// Tells `end` the parameter and length of the parts of a span that need no halving.
 fn halve(
-    speed: &impl Fn(f64) -> f64,
+    velocity: &impl Fn(f64) -> DVec3,
     [a, b]: [f64; 2],
     whole: f64,
     least: f64,
     depth: u32,
     end: &mut impl FnMut(f64, f64),
 ) {
+    let speed = |t: f64| length(velocity(t));
     let middle = (a + b) / 2.0;
-    let halves = [quadrature(speed, a, middle), quadrature(speed, middle, b)];
+    let halves = [quadrature(&speed, a, middle), quadrature(&speed, middle, b)];
     let both = halves[0] + halves[1];
     let agree = (both - whole).abs() <= (ACCURACY * both).max(least);
-    if agree || depth == 0 || !both.is_finite() {
+    let done = agree && !turns_back([a, middle, b].map(velocity));
+    if done || depth == 0 || !both.is_finite() {
         end(middle, halves[0]);
         end(b, halves[1]);
         return;
     }
-    halve(speed, [a, middle], halves[0], least, depth - 1, end);
-    halve(speed, [middle, b], halves[1], least, depth - 1, end);
+    halve(velocity, [a, middle], halves[0], least, depth - 1, end);
+    halve(velocity, [middle, b], halves[1], least, depth - 1, end);
+}
+
+/// Whether a curve goes back between neighbours of three places: where it does, on a line,
+/// its speed has a kink, which halves may miss as the whole does, and agree by chance.
+fn turns_back([a, b, c]: [DVec3; 3]) -> bool {
+    let back = |v: DVec3, w: DVec3| match (unit(v), unit(w)) {
+        (Some(v), Some(w)) => v.dot(w) < 0.0,
+        _ => false,
+    };
+    back(a, b) || back(b, c)
 }
 
 /// Integral of `speed` from `a` to `b` by five Gauss–Legendre points.

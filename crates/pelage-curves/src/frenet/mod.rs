@@ -47,10 +47,12 @@ pub mod polygon;
 mod step;
 
 pub use analysis::Sample;
+pub(crate) use analysis::tangents;
 pub use apparatus::{Apparatus, Segment};
 pub use catmull_rom::CatmullRom;
 pub use error::FrenetError;
 pub use frame::Frame;
+pub(crate) use frame::{perpendicular, unit};
 pub use helicity::Helical;
 pub use measure::{Measure, SpaceCurve};
 pub use ordered::Placed;

@@ -1,0 +1,130 @@
+//! Rates of frames, NURBS and tubes on one core: `cargo bench -p pelage-curves`.
+
+use pelage_curves::frenet::{Measure, Sample};
+use pelage_curves::tube::{Rings, Section, Tube};
+use pelage_curves::{Chain, DVec3, FrameScratch, Framing, Jet, Nurbs, Vec3, untwisted_normals};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// How often each is measured; the best counts, as other work on the machine only slows.
+const ROUNDS: usize = 15;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    frames();
+    nurbs()?;
+    tubes()?;
+    Ok(())
+}
+
+/// Millions a second at best.
+fn rate(name: &str, items: usize, mut work: impl FnMut()) {
+    let mut best = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let started = Instant::now();
+        work();
+        best = best.min(started.elapsed().as_secs_f64());
+    }
+    println!("{name:<44} {:>7.1} M/s", items as f64 / best / 1e6);
+}
+
+/// Curls, whose frames do turn.
+fn frames() {
+    for vertices in [8, 32, 1000] {
+        let curves = 32_000 / vertices;
+        let point = |i: usize| {
+            let (a, z) = ((i % vertices) as f32 * 0.4, (i / vertices) as f32);
+            Vec3::new(libm::cosf(a + z), libm::sinf(a + z), 0.1 * a)
+        };
+        let points: Vec<Vec3> = (0..curves * vertices).map(point).collect();
+        let offsets: Vec<u32> = (0..=curves).map(|i| (i * vertices) as u32).collect();
+        let mut normals = vec![Vec3::ZERO; points.len()];
+        let mut scratch = FrameScratch::default();
+        let name = format!("double reflection, {vertices} vertices a curve");
+        rate(&name, points.len() * 20, || {
+            for _ in 0..20 {
+                let points = black_box(&points[..]);
+                untwisted_normals(points, &offsets, |_| Vec3::Z, &mut scratch, &mut normals);
+                black_box(&mut normals);
+            }
+        });
+    }
+}
+
+fn nurbs() -> Result<(), pelage_curves::SplineError> {
+    for (degree, rational) in [(3, false), (3, true), (2, true), (5, true)] {
+        let n = 200;
+        let at = |i: usize| i as f64 * 0.3;
+        let points: Vec<DVec3> = (0..n)
+            .map(|i| DVec3::new(libm::cos(at(i)), libm::sin(at(i)), at(i)))
+            .collect();
+        let even = Nurbs::clamped(degree, &points)?;
+        // Uneven knots, so that the search for the piece is paid.
+        let knots: Vec<f64> = even.knots().iter().map(|k| k * (1.0 + k / 50.0)).collect();
+        let weight = |i: usize| if rational { 1.0 + (i % 3) as f64 } else { 1.0 };
+        let weights: Vec<f64> = (0..n).map(weight).collect();
+        let curve = Nurbs::new(degree, &points, &weights, &knots)?;
+        let high = curve.domain().1;
+        let steps = 400_000;
+        let kind = if rational { "NURBS" } else { "B-spline" };
+        let name = format!("{kind} of degree {degree}, three derivatives");
+        rate(&name, steps, || {
+            for i in 0..steps {
+                // All over the curve, in no order.
+                let u = (i * 7919 % steps) as f64 / steps as f64 * high;
+                black_box(curve.derivatives(black_box(u)));
+            }
+        });
+        rate(&format!("{name}, in its piece"), steps, || {
+            for i in 0..steps {
+                let t = (i % 100) as f64 / 100.0;
+                black_box(curve.jet(black_box(i % 150), black_box(t)));
+            }
+        });
+        let us: Vec<f64> = (0..4000)
+            .map(|i| (i * 7919 % 4000) as f64 / 4000.0 * high)
+            .collect();
+        let mut jets = vec![[DVec3::ZERO; 4]; us.len()];
+        rate(&format!("{name}, many at once"), us.len() * 100, || {
+            for _ in 0..100 {
+                curve.derivatives_at(black_box(&us), &mut jets);
+                black_box(&mut jets);
+            }
+        });
+    }
+    Ok(())
+}
+
+/// One long curl, in f64.
+fn tubes() -> Result<(), Box<dyn std::error::Error>> {
+    let at = |i: usize| i as f64 * 0.4;
+    let points: Vec<DVec3> = (0..2000)
+        .map(|i| DVec3::new(libm::cos(at(i)), libm::sin(at(i)), 0.1 * at(i)))
+        .collect();
+    let curve = Chain::catmull_rom(&points, 0.5)?;
+    let samples = Sample::along(&curve, 20_000)?;
+    rate("arc length, pieces", 1999, || {
+        black_box(Measure::new(&curve)).ok();
+    });
+    rate("even samples by arc length", 20_000, || {
+        black_box(Sample::along(&curve, 20_000)).ok();
+    });
+    for rule in [
+        Framing::Frenet,
+        Framing::UpAxis(DVec3::Z),
+        Framing::Propagated,
+        Framing::DoubleReflection,
+    ] {
+        rate(&format!("{rule:?}, f64, one curve"), samples.len(), || {
+            black_box(rule.frames(&samples, DVec3::Z)).ok();
+        });
+    }
+    let section = Section::circle(16)?;
+    let tube = Tube {
+        rings: Rings::Even(20_000),
+        ..Tube::default()
+    };
+    rate("tube, vertices", 20_001 * 17, || {
+        black_box(tube.sweep(&curve, &section, |t| 0.1 * (1.0 - t))).ok();
+    });
+    Ok(())
+}
