@@ -1,7 +1,7 @@
 //! What can be typed.
 
 use super::import::Dialect;
-use super::values::{frames, open_range, size, vector, whole};
+use super::values::{detail, frames, not_negative, open_range, size, vector, whole};
 use anyhow::{Result, bail};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use pelage::Recipe;
@@ -49,6 +49,8 @@ pub enum Command {
     Inspect(InspectArgs),
     /// Tell how curves bend: curvature, torsion, helicity and length, as tables and plots.
     Analyze(AnalyzeArgs),
+    /// Sweep curves to solid meshes: branches, cables, braids, hair for printing.
+    Tube(TubeArgs),
     /// Measure the figures of docs/results again, on this machine.
     Bench(BenchArgs),
     /// Draw each property in a strip of pictures, from low to high.
@@ -114,6 +116,68 @@ pub struct AnalyzeArgs {
     /// The time to look at, where the file has several.
     #[arg(long, value_name = "F")]
     pub frame: Option<f64>,
+}
+
+/// `pelage tube`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  pelage tube branches.usda -o tree.glb --radius 0.1 --tip-radius 0.01\n  \
+    pelage tube hair.npz -o hair.ply --sides 6 --caps round"
+)]
+pub struct TubeArgs {
+    /// A file of curves: USD, .npz, .hair or OBJ polylines.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// The mesh: .obj, .ply, .glb or .usda.
+    #[arg(long, short, value_hint = ValueHint::FilePath)]
+    pub output: PathBuf,
+    /// Radius at the start of each curve. Left out, half of the file's widths.
+    #[arg(long, value_name = "R", value_parser = not_negative)]
+    pub radius: Option<f32>,
+    /// Radius at the end; left out, that at the start.
+    #[arg(long, value_name = "R", requires = "radius", value_parser = not_negative)]
+    pub tip_radius: Option<f32>,
+    /// Sides of the section, which is a regular polygon with smooth normals.
+    #[arg(long, default_value_t = 12, value_parser = clap::value_parser!(u32).range(3..=4096))]
+    pub sides: u32,
+    /// How the section is kept from turning about the curve.
+    #[arg(long, value_enum, default_value_t)]
+    pub framing: FramingKind,
+    /// How ends are closed.
+    #[arg(long, value_enum, default_value_t)]
+    pub caps: CapKind,
+    /// Bend from ring to ring: fewer degrees are more triangles.
+    #[arg(long, value_name = "DEGREES", default_value_t = 6.0, value_parser = detail)]
+    pub detail: f32,
+    /// The time to take, where the file has several.
+    #[arg(long, value_name = "F")]
+    pub frame: Option<f64>,
+}
+
+/// How frames go along a curve.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum FramingKind {
+    /// As little twist as there can be.
+    #[default]
+    DoubleReflection,
+    /// Each frame turned as the tangent turns.
+    Propagated,
+    /// Toward where the curve bends; turns over at inflections.
+    Frenet,
+    /// Upright by +Y; turns over where the curve does.
+    UpAxis,
+}
+
+/// How the ends of a tube are closed.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum CapKind {
+    /// Not at all.
+    Open,
+    /// By a flat lid.
+    #[default]
+    Flat,
+    /// By half a sphere.
+    Round,
 }
 
 /// `pelage gallery`.

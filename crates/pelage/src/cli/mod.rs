@@ -20,6 +20,7 @@ mod progress;
 mod sample;
 mod say;
 mod stats;
+mod tube;
 mod values;
 
 use args::{Cli, Command};
@@ -41,6 +42,7 @@ pub fn run() -> ExitCode {
         Command::Render(args) => picture::run(&args, &say),
         Command::Inspect(args) => inspect::run(&args, &say),
         Command::Analyze(args) => analyze::run(&args, &say),
+        Command::Tube(args) => tube::run(&args, &say),
         Command::Bench(args) => bench::run(&args, &say),
         Command::Gallery(args) => gallery::run(&args, &say),
         Command::Schema { markdown } => pages::schema(markdown),

@@ -66,6 +66,24 @@ pub fn vector(text: &str) -> Result<[f32; 3], String> {
     }
 }
 
+/// A number of 0 or more.
+pub fn not_negative(text: &str) -> Result<f32, String> {
+    let number: f32 = text.parse().map_err(|_| "expected a number".to_owned())?;
+    match number.is_finite() && number >= 0.0 {
+        true => Ok(number),
+        false => Err("expected a number of 0 or more".into()),
+    }
+}
+
+/// An angle between rings, in degrees.
+pub fn detail(text: &str) -> Result<f32, String> {
+    let degrees = not_negative(text)?;
+    match (0.01..=90.0).contains(&degrees) {
+        true => Ok(degrees),
+        false => Err("expected 0.01 to 90 degrees".into()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -192,6 +192,50 @@ fn analyzing_helices_finds_their_curvature_torsion_and_length() {
 }
 
 #[test]
+fn tubes_are_closed_solids_of_the_radius_and_length_asked_for() {
+    let folder = Folder::new();
+    folder.write(
+        "curves.obj",
+        "v 0 0 0\nv 0 0 1\nv 0 0 4\nv 9 0 0\nv 9 0 2\nl 1 2 3\nl 4 5\n",
+    );
+    let curves = folder.path("curves.obj");
+    let volume = |name: &str, more: &[&str]| {
+        let mesh = folder.path(name);
+        pelage(&[&["tube", &curves, "-o", &mesh], more].concat());
+        let mesh = pelage::io::read_mesh(mesh.as_ref(), None).unwrap().mesh;
+        let corner = |i: usize| {
+            let p = mesh.positions[mesh.corner_vertices[i] as usize];
+            pelage::curves::Vec3::from(p).as_dvec3()
+        };
+        let faces = (0..mesh.face_sizes.len()).map(|f| [0, 1, 2].map(|k| corner(3 * f + k)));
+        faces.map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum::<f64>()
+    };
+    // A polygon of 64 sides has nearly the area of its circle.
+    let area = 32.0 * 0.25 * libm::sin(std::f64::consts::TAU / 64.0);
+    let straight = ["--radius", "0.5", "--sides", "64"];
+    for name in ["tube.glb", "tube.obj", "tube.ply", "tube.usda"] {
+        let found = volume(name, &straight);
+        assert!((found - 6.0 * area).abs() < 1e-3, "{name}: {found}");
+    }
+    let cone = volume(
+        "cone.ply",
+        &[&straight[..], &["--tip-radius", "0"]].concat(),
+    );
+    assert!((cone - 2.0 * area).abs() < 1e-2, "{cone}");
+    let words = fails(&["tube", &curves, "-o", &folder.path("a.glb")]);
+    assert!(words.contains("--radius"), "{words}");
+    let words = fails(&[
+        "tube",
+        &curves,
+        "-o",
+        &folder.path("a.stl"),
+        "--radius",
+        "1",
+    ]);
+    assert!(words.contains(".stl; there are .obj"), "{words}");
+}
+
+#[test]
 fn a_pose_of_other_topology_is_refused_with_the_place() {
     let folder = Folder::with_ball();
     folder.write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
