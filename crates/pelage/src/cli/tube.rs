@@ -15,7 +15,7 @@ use std::time::Instant;
 /// Most rings of a tube.
 const MOST_RINGS: usize = 100_000;
 
-/// Half-way round a round cap, rings for every four sides: caps as fine as the sides.
+/// Sides for each ring of a round cap, which is a quarter of a turn: as fine as the sides.
 const SIDES_A_CAP_RING: usize = 4;
 
 /// Sweeps every curve of a file and writes all tubes as one mesh.
