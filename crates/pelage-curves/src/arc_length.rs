@@ -12,7 +12,8 @@ use crate::Curve;
 /// fewer loses digits where the speed has a near-cusp.
 const SPANS: usize = 8;
 
-const NODES: [(f64, f64); 5] = [
+/// Places in -1..=1 and weights of five Gauss–Legendre points.
+pub(crate) const NODES: [(f64, f64); 5] = [
     (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
     (-0.538_469_310_105_683, 0.478_628_670_499_366_5),
     (0.0, 0.568_888_888_888_888_9),

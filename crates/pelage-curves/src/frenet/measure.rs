@@ -6,6 +6,7 @@
 
 use super::FrenetError;
 use super::frame::unit;
+use crate::arc_length::NODES;
 use glam::DVec3;
 
 /// A curve in pieces, each over a parameter t in 0..=1.
@@ -131,13 +132,6 @@ fn turns_back([a, b, c]: [DVec3; 3]) -> bool {
 
 /// Integral of `speed` from `a` to `b` by five Gauss–Legendre points.
 fn quadrature(speed: &impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
-    const NODES: [(f64, f64); 5] = [
-        (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
-        (-0.538_469_310_105_683, 0.478_628_670_499_366_5),
-        (0.0, 0.568_888_888_888_888_9),
-        (0.538_469_310_105_683, 0.478_628_670_499_366_5),
-        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    ];
     let half = (b - a) / 2.0;
     let parts = NODES.map(|(x, weight)| weight * speed(a + half * (1.0 + x)));
     parts.iter().sum::<f64>() * half

@@ -186,4 +186,4 @@ fn check_weights(weights: &[f64], points: usize) -> Result<(), SplineError> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -160,8 +160,8 @@ proptest! {
     }
 }
 
-/// The unit circle of nine points.
-fn circle() -> Nurbs {
+/// The circle of `radius` in the xy plane, of nine points.
+pub(crate) fn circle(radius: f64) -> Nurbs {
     let corner = std::f64::consts::FRAC_1_SQRT_2;
     let around = [
         [1, 0],
@@ -174,7 +174,7 @@ fn circle() -> Nurbs {
         [1, -1],
         [1, 0],
     ];
-    let points = around.map(|[x, y]| DVec3::new(x as f64, y as f64, 0.0));
+    let points = around.map(|[x, y]| DVec3::new(x as f64, y as f64, 0.0) * radius);
     let weights: Vec<f64> = (0..9)
         .map(|i| if i % 2 == 0 { 1.0 } else { corner })
         .collect();
@@ -184,7 +184,7 @@ fn circle() -> Nurbs {
 
 #[test]
 fn a_circle_has_its_radius_curvature_length_and_box() {
-    let circle = circle();
+    let circle = circle(1.0);
     for i in 0..100 {
         let jet = circle.derivatives(i as f64 / 25.0);
         assert!((jet[0].length() - 1.0).abs() < 1e-15);

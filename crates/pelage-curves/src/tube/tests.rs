@@ -1,9 +1,10 @@
 use super::*;
-use crate::{Chain, Nurbs, Vec3};
+use crate::nurbs::tests::circle;
+use crate::{Chain, Vec3};
 use glam::DVec2;
 use proptest::prelude::*;
 use std::collections::HashMap;
-use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 /// Directed edges, joined by the bits of their positions: how often each goes one way more
 /// than the other. None where the mesh is closed.
@@ -50,27 +51,6 @@ fn volume(mesh: &TubeMesh) -> f64 {
 
 fn line(end: DVec3) -> Chain {
     Chain::catmull_rom(&[DVec3::ZERO, end], 0.5).unwrap()
-}
-
-/// The circle of `radius` in the xy plane.
-fn circle(radius: f64) -> Nurbs {
-    let around = [
-        [1, 0],
-        [1, 1],
-        [0, 1],
-        [-1, 1],
-        [-1, 0],
-        [-1, -1],
-        [0, -1],
-        [1, -1],
-        [1, 0],
-    ];
-    let points = around.map(|[x, y]| DVec3::new(x as f64, y as f64, 0.0) * radius);
-    let weights: Vec<f64> = (0..9)
-        .map(|i| if i % 2 == 0 { 1.0 } else { FRAC_1_SQRT_2 })
-        .collect();
-    let knots = [0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
-    Nurbs::new(2, &points, &weights, &knots).unwrap()
 }
 
 fn even(parts: usize) -> Tube {
