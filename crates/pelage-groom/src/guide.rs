@@ -29,6 +29,13 @@ impl Guide {
         }
     }
 
+    /// The guide that `curve` is at `root`: its vertices seen from the first.
+    pub(crate) fn of_curve(mesh: &Mesh, root: SurfacePoint, curve: &[Vec3]) -> Self {
+        let first = curve.first().copied().unwrap_or_default();
+        let offsets: Vec<Vec3> = curve.iter().map(|&p| p - first).collect();
+        Self::new(mesh, root, &offsets)
+    }
+
     /// The same guide with `segments + 1` vertices at equal steps of arc length along
     /// the Catmull-Rom curve through its vertices.
     pub fn resampled(&self, segments: usize) -> Self {
@@ -95,12 +102,7 @@ fn bind_one(
     index: usize,
     curve: &[Vec3],
 ) -> Result<(Guide, f32), PlanError> {
-    if let Some(vertex) = curve
-        .iter()
-        .position(|p| !p.is_finite() || p.abs().max_element() > Mesh::FARTHEST)
-    {
-        return Err(PlanError::GuideNotFinite { index, vertex });
-    }
+    refuse_far(index, curve)?;
     let Some(&first) = curve.first() else {
         return Err(PlanError::GuideTooShort { index });
     };
@@ -108,6 +110,14 @@ fn bind_one(
         return Err(PlanError::GuideTooShort { index });
     }
     let (root, distance) = closest.query(first).ok_or(PlanError::NoSurface)?;
-    let offsets: Vec<Vec3> = curve.iter().map(|&p| p - first).collect();
-    Ok((Guide::new(mesh, root, &offsets), distance))
+    Ok((Guide::of_curve(mesh, root, curve), distance))
+}
+
+/// Refuses guide number `index` if a vertex of it is not finite or too far away.
+pub(crate) fn refuse_far(index: usize, curve: &[Vec3]) -> Result<(), PlanError> {
+    let far = |p: &Vec3| !p.is_finite() || p.abs().max_element() > Mesh::FARTHEST;
+    match curve.iter().position(far) {
+        Some(vertex) => Err(PlanError::GuideNotFinite { index, vertex }),
+        None => Ok(()),
+    }
 }

@@ -66,10 +66,7 @@ impl GuideSet {
     pub(crate) fn posed(&self, surface: &Mesh, curves: &[Vec<Vec3>]) -> GuideShapes {
         let guides = self.numbers.iter().zip(&self.roots);
         let posed = guides.map(|(&number, &root)| {
-            let curve = &curves[number];
-            let first = curve.first().copied().unwrap_or_default();
-            let offsets: Vec<Vec3> = curve.iter().map(|&p| p - first).collect();
-            let guide = Guide::new(surface, root, &offsets);
+            let guide = Guide::of_curve(surface, root, &curves[number]);
             guide.resampled(self.segments as usize).local
         });
         GuideShapes::new(&posed.collect::<Vec<_>>(), self.space)

@@ -3,6 +3,7 @@
 use crate::PlanError;
 use crate::capture::Capture;
 use crate::curves::Curves;
+use crate::guide::refuse_far;
 use crate::guide_shapes::GuideShapes;
 use crate::plan::Plan;
 use crate::stages::roots::Root;
@@ -94,11 +95,8 @@ impl Plan {
                 expected: self.guide_count(),
             });
         }
-        let finite = |p: &Vec3| p.is_finite() && p.abs().max_element() <= Mesh::FARTHEST;
         for (index, curve) in curves.iter().enumerate() {
-            if let Some(vertex) = curve.iter().position(|p| !finite(p)) {
-                return Err(PlanError::GuideNotFinite { index, vertex });
-            }
+            refuse_far(index, curve)?;
         }
         let surface = surface.unwrap_or(self.rest());
         let groups = self.guides.iter();

@@ -12,6 +12,21 @@ use super::entry::{Entry, Leaf, Rule};
 use super::outline::Told;
 use super::reader::Reader;
 
+/// A list as one leaf, with the maps of all its items; item `i` is named `key[i]`.
+pub(super) fn leaf<'a, T: Entry + Serialize>(
+    items: &'a [T],
+    key: &str,
+    doc: &'static str,
+) -> Leaf<'a> {
+    let mut all = Leaf::of(key, &items, doc);
+    for (i, item) in items.iter().enumerate() {
+        item.walk(&format!("{key}[{i}]"), doc, &mut |leaf| {
+            all.maps.extend(leaf.maps);
+        });
+    }
+    all
+}
+
 /// Lists of sections, entry `i` named `key[i]`. A list is empty where the key is absent.
 impl<T: Entry + Default + Serialize> Entry for Vec<T> {
     fn read(
@@ -43,13 +58,7 @@ impl<T: Entry + Default + Serialize> Entry for Vec<T> {
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-        let mut all = Leaf::of(key, self, doc);
-        for (i, item) in self.iter().enumerate() {
-            item.walk(&format!("{key}[{i}]"), doc, &mut |leaf| {
-                all.maps.extend(leaf.maps);
-            });
-        }
-        visit(all);
+        visit(leaf(self, key, doc));
     }
 
     fn outline(

@@ -10,6 +10,7 @@ use toml::de::DeValue;
 
 use super::entry::{Entry, Leaf, Rule};
 use super::limits::Limits;
+use super::list;
 use super::reader::Reader;
 
 /// The shortest decimal that reads back as `number`, as TOML wants it.
@@ -233,13 +234,7 @@ impl<T: Entry + Serialize> Entry for [T; 3] {
     }
 
     fn walk<'a>(&'a self, key: &str, doc: &'static str, visit: &mut dyn FnMut(Leaf<'a>)) {
-        let mut all = Leaf::of(key, self, doc);
-        for (i, item) in self.iter().enumerate() {
-            item.walk(&format!("{key}[{i}]"), doc, &mut |leaf| {
-                all.maps.extend(leaf.maps);
-            });
-        }
-        visit(all);
+        visit(list::leaf(self, key, doc));
     }
 
     fn settle(&mut self, folder: &Path) {
