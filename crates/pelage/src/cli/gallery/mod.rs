@@ -16,6 +16,7 @@ use pelage::strands::StreamInfo;
 use pelage::{Collect, Pose, Request, generate};
 use std::process::ExitCode;
 use std::time::Instant;
+use subject::Surfaces;
 
 /// The frame that is shown: far enough for what moves to have moved.
 const FRAME: f64 = 12.0;
@@ -49,9 +50,11 @@ pub fn run(args: &GalleryArgs, say: &Say) -> Result<ExitCode> {
     std::fs::create_dir_all(&args.output)
         .with_context(|| format!("cannot make the folder {}", args.output.display()))?;
     let started = Instant::now();
+    let surfaces = Surfaces::new()?;
     let bar = Bar::new(say, strips.len() as u64, "strips");
     for (done, strip) in strips.iter().enumerate() {
-        let drawn = draw(strip, args).with_context(|| format!("the strip of {}", strip.key))?;
+        let drawn =
+            draw(strip, &surfaces, args).with_context(|| format!("the strip of {}", strip.key))?;
         files::write_bytes(&args.output.join(strip.file()), &drawn)?;
         bar.set(done as u64 + 1);
     }
@@ -66,8 +69,11 @@ pub fn run(args: &GalleryArgs, say: &Say) -> Result<ExitCode> {
 }
 
 /// The pictures of a strip side by side, as JPEG.
-fn draw(strip: &Strip, args: &GalleryArgs) -> Result<Vec<u8>> {
-    let pictures = strip.values.iter().map(|value| picture(strip, value, args));
+fn draw(strip: &Strip, surfaces: &Surfaces, args: &GalleryArgs) -> Result<Vec<u8>> {
+    let pictures = strip
+        .values
+        .iter()
+        .map(|value| picture(strip, value, surfaces, args));
     let pictures = pictures.collect::<Result<Vec<Picture>>>()?;
     let (width, height) = args.size;
     let whole = (width + GAP) * pictures.len() as u32 - GAP;
@@ -89,8 +95,8 @@ fn draw(strip: &Strip, args: &GalleryArgs) -> Result<Vec<u8>> {
     Ok(jpeg)
 }
 
-fn picture(strip: &Strip, value: &str, args: &GalleryArgs) -> Result<Picture> {
-    let plan = subject::plan(strip.on, &subject::recipe(strip, value))?;
+fn picture(strip: &Strip, value: &str, surfaces: &Surfaces, args: &GalleryArgs) -> Result<Picture> {
+    let plan = surfaces.plan(strip.on, &subject::recipe(strip, value))?;
     let request = Request {
         hairs: 0..plan.count(),
         threads: threads_of(args.threads),

@@ -80,21 +80,42 @@ pub fn recipe(strip: &Strip, value: &str) -> String {
     lines.collect()
 }
 
-/// Compiles the recipe `text` on the surface of `subject`.
-pub fn plan(subject: Subject, text: &str) -> Result<Plan> {
-    let recipe = Recipe::parse(text, Path::new("gallery.toml"))?;
-    let mut images = Images::new();
-    for (_, used) in recipe.maps() {
-        let image = map(&used.path.written);
-        images.insert(used.path.resolved.clone(), Arc::new(image));
+/// The surfaces of all subjects, made once: the ball takes longer than a small picture.
+pub struct Surfaces {
+    ball: PolygonMesh,
+}
+
+impl Surfaces {
+    pub fn new() -> Result<Self> {
+        let ball = pelage::examples::example("ball").context("the ball is missing")?;
+        Ok(Self { ball: ball.mesh })
     }
-    Ok(Plan::new(Groom {
-        mesh: surface(subject)?,
-        recipe,
-        keep_file_normals: true,
-        images,
-        guides: Vec::new(),
-    })?)
+
+    /// Compiles the recipe `text` on the surface of `subject`.
+    pub fn plan(&self, subject: Subject, text: &str) -> Result<Plan> {
+        let recipe = Recipe::parse(text, Path::new("gallery.toml"))?;
+        let mut images = Images::new();
+        for (_, used) in recipe.maps() {
+            let image = map(&used.path.written);
+            images.insert(used.path.resolved.clone(), Arc::new(image));
+        }
+        Ok(Plan::new(Groom {
+            mesh: self.of(subject),
+            recipe,
+            keep_file_normals: true,
+            images,
+            guides: Vec::new(),
+        })?)
+    }
+
+    fn of(&self, subject: Subject) -> PolygonMesh {
+        match subject {
+            Subject::Fur => self.ball.clone(),
+            Subject::Tuft | Subject::Strands => {
+                PolygonMesh::sheet(4, 4, |u, v| [u - 0.5, 0.0, 0.5 - v])
+            }
+        }
+    }
 }
 
 /// The map `name`: a gradient, spots, or patches of flat colours.
@@ -116,18 +137,6 @@ fn map(name: &str) -> ImageMap {
     let texels = (0..MAP_SIZE * MAP_SIZE).flat_map(|i| texel(i % MAP_SIZE, i / MAP_SIZE));
     // As many finite texels as the size says.
     ImageMap::new(MAP_SIZE, MAP_SIZE, 3, texels.collect(), true).expect("a map is a map")
-}
-
-fn surface(subject: Subject) -> Result<PolygonMesh> {
-    match subject {
-        Subject::Fur => {
-            let ball = pelage::examples::example("ball").context("the ball is missing")?;
-            Ok(ball.mesh)
-        }
-        Subject::Tuft | Subject::Strands => {
-            Ok(PolygonMesh::sheet(4, 4, |u, v| [u - 0.5, 0.0, 0.5 - v]))
-        }
-    }
 }
 
 /// From where `subject` is seen, the same in all pictures.
