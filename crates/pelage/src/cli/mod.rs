@@ -6,6 +6,7 @@
 mod analyze;
 mod args;
 mod bench;
+mod curves;
 mod demo;
 mod files;
 mod gallery;

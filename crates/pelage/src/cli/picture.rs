@@ -1,11 +1,12 @@
 //! `pelage render`, and the pictures of `generate` and `demo`.
 
 use super::args::{CameraArgs, RenderArgs, Shading, ViewArgs};
+use super::curves;
 use super::progress::Bar;
 use super::say::{Say, spent};
 use anyhow::{Context, Result, bail};
 use pelage::StrandBuffer;
-use pelage::io::{read_curves, read_image, read_mesh, strands_through_vertices};
+use pelage::io::{read_image, read_mesh};
 use pelage::render::{Camera, Reflection, Scene, Settings, Shape, render};
 use pelage::strands::UpAxis;
 use pelage::surface::{ImageMap, Mesh, linear_from_srgb};
@@ -19,11 +20,7 @@ const ELEVATION: f32 = 13.0;
 
 /// Renders a file of hair.
 pub fn run(args: &RenderArgs, say: &Say) -> Result<ExitCode> {
-    let file = read_curves(&args.file, args.frame)?;
-    let mut strands = StrandBuffer::new();
-    file.sets
-        .iter()
-        .for_each(|set| strands.append(&strands_through_vertices(set)));
+    let (strands, up_axis) = curves::read(&args.file, args.frame)?;
     if strands.is_empty() {
         bail!("{}: there are no curves to show", args.file.display());
     }
@@ -32,7 +29,7 @@ pub fn run(args: &RenderArgs, say: &Say) -> Result<ExitCode> {
         .as_deref()
         .map(|path| surface(path, args.frame))
         .transpose()?;
-    let up = file.up_axis.unwrap_or_default();
+    let up = up_axis.unwrap_or_default();
     let started = Instant::now();
     draw(
         &strands,

@@ -2,6 +2,7 @@
 
 use anyhow::{Result, anyhow};
 use plotters::coord::CoordTranslate;
+use plotters::coord::ranged1d::ValueFormatter;
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::*;
 
@@ -41,12 +42,7 @@ pub fn logarithmic(axes: &Axes, lines: &[Line]) -> Result<String> {
         let (across, up) = (range(|p| p.0), range(|p| p.1));
         let mut chart =
             builder(root, axes).build_cartesian_2d(across.log_scale(), up.log_scale())?;
-        chart
-            .configure_mesh()
-            .x_desc(axes.x)
-            .y_desc(axes.y)
-            .light_line_style(BLACK.mix(0.05))
-            .draw()?;
+        mesh(&mut chart, axes)?;
         series(&mut chart, lines, 3)?;
         // Where errors that fall, and rates that fall off, leave room.
         legend(&mut chart, SeriesLabelPosition::LowerLeft)?;
@@ -65,12 +61,7 @@ pub fn linear(axes: &Axes, lines: &[Line]) -> Result<String> {
         };
         let (across, up) = (range(|p| p.0), range(|p| p.1));
         let mut chart = builder(root, axes).build_cartesian_2d(across, up)?;
-        chart
-            .configure_mesh()
-            .x_desc(axes.x)
-            .y_desc(axes.y)
-            .light_line_style(BLACK.mix(0.05))
-            .draw()?;
+        mesh(&mut chart, axes)?;
         series(&mut chart, lines, 0)?;
         legend(&mut chart, SeriesLabelPosition::UpperLeft)?;
         Ok(())
@@ -103,6 +94,21 @@ where
         .x_label_area_size(44)
         .y_label_area_size(64);
     builder
+}
+
+/// Draws the axes with what they say.
+fn mesh<X, Y>(chart: &mut ChartContext<SVGBackend, Cartesian2d<X, Y>>, axes: &Axes) -> Drawn
+where
+    X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
+    chart
+        .configure_mesh()
+        .x_desc(axes.x)
+        .y_desc(axes.y)
+        .light_line_style(BLACK.mix(0.05))
+        .draw()?;
+    Ok(())
 }
 
 /// Smallest and largest of a coordinate.

@@ -1,6 +1,7 @@
 //! `pelage tube`: curves swept to solid meshes, for branches, cables, braids and printing.
 
 use super::args::{CapKind, FramingKind, TubeArgs};
+use super::curves;
 use super::progress::Bar;
 use super::say::{Say, grouped, spent};
 use anyhow::{Context, Result, anyhow, bail};
@@ -8,7 +9,7 @@ use pelage::StrandBuffer;
 use pelage::curves::frenet::CatmullRom;
 use pelage::curves::tube::{Caps, Rings, Section, Tube, TubeMesh};
 use pelage::curves::{DVec3, Framing, Vec3};
-use pelage::io::{Triangles, read_curves, strands_through_vertices, write_mesh};
+use pelage::io::{Triangles, write_mesh};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -21,10 +22,7 @@ const SIDES_A_CAP_RING: usize = 4;
 /// Sweeps every curve of a file and writes all tubes as one mesh.
 pub fn run(args: &TubeArgs, say: &Say) -> Result<ExitCode> {
     let started = Instant::now();
-    let file = read_curves(&args.file, args.frame)?;
-    let mut strands = StrandBuffer::new();
-    let sets = file.sets.iter().map(strands_through_vertices);
-    sets.for_each(|set| strands.append(&set));
+    let (strands, _) = curves::read(&args.file, args.frame)?;
     if strands.is_empty() {
         bail!("{}: there are no curves in it", args.file.display());
     }

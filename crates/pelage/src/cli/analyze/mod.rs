@@ -4,21 +4,17 @@ mod measure;
 mod report;
 
 use super::args::AnalyzeArgs;
+use super::curves;
 use super::files::{json, write};
 use super::say::{Say, grouped};
 use anyhow::{Context, Result, bail};
 use measure::{Measured, measure};
-use pelage::StrandBuffer;
-use pelage::io::{read_curves, strands_through_vertices};
 use report::{Report, plots};
 use std::process::ExitCode;
 
 /// Measures every curve of a file and writes the report.
 pub fn run(args: &AnalyzeArgs, say: &Say) -> Result<ExitCode> {
-    let file = read_curves(&args.file, args.frame)?;
-    let mut strands = StrandBuffer::new();
-    let sets = file.sets.iter().map(strands_through_vertices);
-    sets.for_each(|set| strands.append(&set));
+    let (strands, _) = curves::read(&args.file, args.frame)?;
     if strands.is_empty() {
         bail!("{}: there are no curves in it", args.file.display());
     }
