@@ -13,15 +13,22 @@ use fearless_simd::{Level, dispatch};
 use pelage_curves::FrameScratch;
 use pelage_strands::{StrandBuffer, StrandMeta};
 use pelage_surface::RootFrame;
+use std::ops::Range;
 
 /// Arrays that are only used while a chunk is evaluated.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     shapes: Shapes,
     posed: Vec<RootFrame>,
-    /// The hair of each curve, by its number in the chunk.
-    hairs: Vec<u32>,
+    kept: Vec<Kept>,
     frames: FrameScratch,
+}
+
+/// A curve that is written, by its number in the chunk, and the number of its hair.
+#[derive(Clone, Copy, Debug)]
+struct Kept {
+    curve: u32,
+    hair: u32,
 }
 
 impl Plan {
@@ -39,7 +46,7 @@ impl Plan {
         let Scratch {
             shapes,
             posed,
-            hairs,
+            kept,
             frames: side_by_side,
         } = scratch;
         let started = clock.start();
@@ -49,31 +56,31 @@ impl Plan {
         let started = clock.start();
         dispatch!(Level::new(), simd => {
             let _ = simd;
-            self.lay_out(capture, shapes, hairs, out)
+            self.lay_out(capture, shapes, kept, out)
         });
         let started = clock.stop(Stage::Look, started);
         if self.normals {
             let points = bytemuck::cast_slice(&out.points);
             let normals = bytemuck::cast_slice_mut(&mut out.normals);
-            let first = |i: usize| frames[hairs[i] as usize].tangent;
+            let first = |i: usize| frames[kept[i].hair as usize].tangent;
             frames::normals(first, points, &out.offsets, side_by_side, normals);
         }
         clock.stop(Stage::Frames, started);
         (capture.len() - out.len() / self.fibers()) as u64
     }
 
-    /// Writes everything but normals, which get their length; and the number of each
-    /// curve's hair in the chunk to `hairs`.
+    /// Writes everything but normals, which get their length; and which curves are written to
+    /// `kept`.
     #[inline(always)]
     fn lay_out(
         &self,
         capture: &Capture,
         shapes: &Shapes,
-        hairs: &mut Vec<u32>,
+        kept: &mut Vec<Kept>,
         out: &mut StrandBuffer,
     ) {
         out.clear();
-        hairs.clear();
+        kept.clear();
         shapes.write(&mut out.points);
         let vertices = out.points.len();
         out.widths.resize(vertices, 0.0);
@@ -83,50 +90,54 @@ impl Plan {
             out.normals.resize(vertices, [0.0; 3]);
         }
         let fibers = self.fibers();
-        for (hair, root) in capture.roots.iter().enumerate() {
-            let meta = StrandMeta {
-                hair_id: root.hair,
-                root_uv: root.uv.to_array(),
-                group: root.group,
-                triangle: root.place.triangle,
-                barycentric: root.place.barycentric,
-                root_rest: root.rest.to_array(),
-                ..StrandMeta::default()
-            };
-            for fiber in 0..fibers {
-                let curve = hair * fibers + fiber;
-                if shapes.stay.numbers(curve).is_empty() {
-                    continue;
-                }
-                let place = capture.fibers.get(curve);
-                out.push_meta(&StrandMeta {
-                    strand_id: fiber as u32,
-                    strand_uv: place.map_or([0.0; 2], |fiber| fiber.place.to_array()),
-                    ..meta
-                });
-                // `push_meta` closes a strand at the points present, which are all.
-                if let Some(last) = out.offsets.last_mut() {
-                    *last = shapes.stay.offsets()[curve + 1];
-                }
-                hairs.push(hair as u32);
-                self.color(capture, hair, shapes.stay.numbers(curve), out);
-            }
+        let curves = 0..capture.len() * fibers;
+        let staying = curves.filter(|&curve| !shapes.stay.numbers(curve).is_empty());
+        kept.extend(staying.map(|curve| Kept {
+            curve: curve as u32,
+            hair: (curve / fibers) as u32,
+        }));
+        out.extend_meta(kept.iter().map(|kept| self.meta(capture, shapes, kept)));
+        for (i, kept) in kept.iter().enumerate() {
+            self.color(capture, shapes, kept, out.vertices(i), out);
         }
     }
 
-    /// Writes the looks of the last curve of `out`, whose vertices had `numbers` in hair
-    /// number `hair` of the chunk.
+    /// Where the vertices of a curve end, and its record.
     #[inline(always)]
-    fn color(&self, capture: &Capture, hair: usize, numbers: &[u32], out: &mut StrandBuffer) {
-        let range = out.vertices(out.len() - 1);
-        let fields = &self.fields.look;
+    fn meta(&self, capture: &Capture, shapes: &Shapes, kept: &Kept) -> (u32, StrandMeta) {
+        let (root, curve) = (&capture.roots[kept.hair as usize], kept.curve as usize);
+        let fiber = capture.fibers.get(curve);
+        let meta = StrandMeta {
+            hair_id: root.hair,
+            strand_id: kept.curve - kept.hair * self.fibers() as u32,
+            root_uv: root.uv.to_array(),
+            strand_uv: fiber.map_or([0.0; 2], |fiber| fiber.place.to_array()),
+            group: root.group,
+            triangle: root.place.triangle,
+            barycentric: root.place.barycentric,
+            root_rest: root.rest.to_array(),
+        };
+        (shapes.stay.offsets()[curve + 1], meta)
+    }
+
+    /// Writes the looks of a curve, whose vertices lie in `range`.
+    #[inline(always)]
+    fn color(
+        &self,
+        capture: &Capture,
+        shapes: &Shapes,
+        kept: &Kept,
+        range: Range<usize>,
+        out: &mut StrandBuffer,
+    ) {
+        let (fields, hair) = (&self.fields.look, kept.hair as usize);
         let pieces = fields.color.pieces();
         look::along(
             fields,
             &capture.looks[hair],
             &capture.mixes[hair * pieces..][..pieces],
             look::Vertices {
-                numbers,
+                numbers: shapes.stay.numbers(kept.curve as usize),
                 segments: self.guides[capture.roots[hair].group as usize].segments,
                 cut: capture.cut(hair),
             },

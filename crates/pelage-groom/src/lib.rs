@@ -7,6 +7,7 @@
 //!
 //! Everything that can fail does so while the [`Plan`] is made.
 
+mod blocks;
 mod bundles;
 mod capture;
 mod clock;
@@ -28,6 +29,7 @@ mod guide;
 mod guide_set;
 mod guide_shapes;
 mod in_order;
+mod lanes;
 mod locator;
 mod looks;
 mod maps;

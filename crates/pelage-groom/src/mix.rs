@@ -1,11 +1,20 @@
 //! Hairs of a chunk as their guides shape them.
 
+use crate::blocks::Blocks;
 use crate::capture::Capture;
 use crate::curves::Curves;
 use crate::guide_shapes::GuideShapes;
+use crate::lanes::LANES;
 use crate::plan::Plan;
 use crate::stages::{frenet, interpolate, scale};
 use fearless_simd::{Level, dispatch};
+
+/// Memory for hairs that are mixed by their bends. Reused between chunks.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct MixScratch {
+    curves: Curves,
+    frenet: frenet::Scratch,
+}
 
 impl Plan {
     /// Mixes the hairs of `capture` of their guides: of those at rest unless `posed` has
@@ -14,8 +23,8 @@ impl Plan {
         &self,
         capture: &Capture,
         posed: Option<&[GuideShapes]>,
-        scratch: &mut frenet::Scratch,
-        hairs: &mut Curves,
+        scratch: &mut MixScratch,
+        hairs: &mut Blocks,
     ) {
         let segments = |group: u32| self.guides[group as usize].segments;
         let shapes = |group: u32| match posed {
@@ -39,11 +48,20 @@ impl Plan {
                     shares: capture.shares(i),
                 })
             };
-            frenet::wind(parts, &hairs.starts, scratch, &mut hairs.vertices);
+            hairs.unroll(&mut scratch.curves);
+            let Curves { vertices, starts } = &mut scratch.curves;
+            frenet::wind(parts, starts, &mut scratch.frenet, vertices);
+            hairs.roll(&scratch.curves);
         }
-        for (i, &factor) in capture.scale.iter().enumerate() {
-            scale::scale(factor, hairs.get_mut(i));
-        }
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            for block in 0..hairs.blocks() {
+                let mut factors = [1.0; LANES];
+                let range = hairs.hairs(block);
+                factors[..range.len()].copy_from_slice(&capture.scale[range]);
+                scale::scale(&factors, hairs.block_mut(block));
+            }
+        });
     }
 }
 
@@ -52,10 +70,13 @@ impl Plan {
 fn mix_vertices<'a>(
     capture: &Capture,
     shapes: impl Fn(u32) -> &'a GuideShapes,
-    hairs: &mut Curves,
+    hairs: &mut Blocks,
 ) {
     for (i, root) in capture.roots.iter().enumerate() {
+        let (block, lane) = (i / LANES, i % LANES);
         let guides = &shapes(root.group).vertices;
-        interpolate::interpolate(guides, capture.shares(i), hairs.get_mut(i));
+        let vertices = hairs.lengths(block)[lane] as usize;
+        let rows = hairs.block_mut(block);
+        interpolate::interpolate(guides, vertices, capture.shares(i), lane, rows);
     }
 }

@@ -13,11 +13,9 @@
 //!   the lattice, where gradients alone are 0. Gradients along the diagonals have the
 //!   second moments of any isotropic set, and so noise has the same correlations.
 
+use crate::lanes::{LANES, Rows};
 use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec3;
-
-/// Points that go through the arithmetic together.
-const LANES: usize = 16;
 
 /// Odd numbers that spread the cells of each axis over all words.
 const PRIMES: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
@@ -49,29 +47,24 @@ pub fn noise(seed: u32, point: Vec3) -> Vec3 {
 pub fn noise_vectors(seed: u32, points: &[Vec3], values: &mut [Vec3]) {
     dispatch!(Level::new(), simd => {
         let _ = simd;
-        let (rows, rest) = values.as_chunks_mut::<LANES>();
-        for (points, values) in points.chunks_exact(LANES).zip(rows) {
-            *values = row(seed, std::array::from_fn(|k| points[k]));
-        }
-        let done = points.len() - rest.len();
-        let last = |k: usize| points[(done + k).min(points.len() - 1)];
-        if !rest.is_empty() {
-            rest.copy_from_slice(&row(seed, std::array::from_fn(last))[..rest.len()]);
+        for (points, values) in points.chunks(LANES).zip(values.chunks_mut(LANES)) {
+            let row = noise_row(seed, &Rows::of(points, |point| *point));
+            for (lane, value) in values.iter_mut().enumerate() {
+                *value = row.get(lane);
+            }
         }
     });
 }
 
+/// [`noise`] at points side by side.
 #[inline(always)]
-fn row(seed: u32, points: [Vec3; LANES]) -> [Vec3; LANES] {
-    let [mut x, mut y, mut z] = [[0.0; LANES]; 3];
-    for k in 0..LANES {
-        [x[k], y[k], z[k]] = points[k].to_array();
-    }
+pub(crate) fn noise_row(seed: u32, points: &Rows) -> Rows {
+    let [x, y, z] = points.0;
     let [mut a, mut b, mut c] = [[0.0; LANES]; 3];
     for k in 0..LANES {
         [a[k], b[k], c[k]] = noise_at(seed, [x[k], y[k], z[k]]);
     }
-    std::array::from_fn(|k| Vec3::new(a[k], b[k], c[k]))
+    Rows([a, b, c])
 }
 
 // The parts of a noise are functions, not closures: closures that are called often are

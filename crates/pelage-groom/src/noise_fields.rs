@@ -2,6 +2,7 @@
 //! amounts along hairs.
 
 use crate::PlanError;
+use crate::lanes::{LANES, Row};
 use crate::maps::{FieldMaker, ScalarField};
 use crate::profile::Profile;
 use crate::random::{Channel, noise_seed};
@@ -49,15 +50,34 @@ impl NoiseFields {
         [x, y, z, root, tip]
     }
 
-    /// How much of the noise a hair of `amount` has at `t`; `between` says it without a ramp.
+    /// How much of the noise each of `hairs`, [`LANES`] at most, has at its `t`; `between`
+    /// says it without a ramp.
     #[inline(always)]
-    pub(crate) fn amount(
+    pub(crate) fn amounts(
         &self,
-        amount: [f32; 2],
-        t: f32,
+        hairs: &[impl Bent],
+        ts: &Row,
         between: impl Fn([f32; 2], f32) -> f32,
-    ) -> f32 {
-        self.amount.at(amount, t, between)
+    ) -> Row {
+        let mut ends = [[0.0; LANES]; 2];
+        for (lane, hair) in hairs.iter().enumerate() {
+            [ends[0][lane], ends[1][lane]] = hair.amount();
+        }
+        let ends = |lane: usize| [ends[0][lane], ends[1][lane]];
+        self.amount.row(ends, ts, between)
+    }
+}
+
+/// Something that noise bends.
+pub(crate) trait Bent {
+    /// Amounts at root and tip, at least 0; with a ramp, the first multiplies it.
+    fn amount(&self) -> [f32; 2];
+}
+
+impl Bent for HairNoise {
+    #[inline(always)]
+    fn amount(&self) -> [f32; 2] {
+        self.amount
     }
 }
 

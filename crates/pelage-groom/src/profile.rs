@@ -64,14 +64,30 @@ impl<const N: usize> Profile<N> {
 }
 
 impl Profile<2> {
-    /// The values at each of `ts`, straight lines without a ramp.
+    /// The values at each of `ts`, of hairs whose fields are those that `values` tells;
+    /// `between` says what these mean without a ramp.
     #[inline(always)]
-    pub(crate) fn row<const M: usize>(&self, values: [f32; 2], ts: &[f32; M]) -> [f32; M] {
+    pub(crate) fn row<const M: usize>(
+        &self,
+        values: impl Fn(usize) -> [f32; 2],
+        ts: &[f32; M],
+        between: impl Fn([f32; 2], f32) -> f32,
+    ) -> [f32; M] {
+        let mut row = [0.0; M];
         // The choice is made once, so that the row is done side by side.
         match &self.ramp {
-            None => ts.map(|t| line(values, t)),
-            Some(ramp) => ts.map(|t| values[0] * on(ramp, t)),
+            None => {
+                for k in 0..M {
+                    row[k] = between(values(k), ts[k]);
+                }
+            }
+            Some(ramp) => {
+                for k in 0..M {
+                    row[k] = values(k)[0] * on(ramp, ts[k]);
+                }
+            }
         }
+        row
     }
 }
 

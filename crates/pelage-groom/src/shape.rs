@@ -1,32 +1,37 @@
 //! The shapes of the hairs of a chunk: from their guides to curves on the pose.
 
+use crate::blocks::Blocks;
 use crate::bundles::BundleScratch;
 use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::curves::Curves;
+use crate::lanes::Frames;
+use crate::mix::MixScratch;
 use crate::plan::Plan;
 use crate::pose::Moment;
-use crate::stages::{cut, flyaway, frenet, frizz, kink, length, world};
+use crate::stages::{cut, flyaway, frizz, kink, length, world};
 use crate::stay::Stay;
+use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
 
 /// The curves of a chunk. Reused between chunks.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shapes {
-    /// The hairs, in local space first, then on the pose; where hairs are multi-strands,
-    /// at last their fibres. A curve that is cut ends before its last vertex.
+    /// The hairs on the pose; where hairs are multi-strands, at last their fibres. A curve that is cut ends before its last vertex.
     pub curves: Curves,
     /// Which vertices of each curve stay.
     pub stay: Stay,
     /// Frames of the roots at rest, where they are displaced.
     rest_frames: Vec<RootFrame>,
-    /// The hairs as the guides at rest have them, where guides are posed.
-    at_rest: Curves,
-    /// Vertices as they were before a stage.
-    before: Vec<Vec3>,
-    noise: [Vec<Vec3>; 3],
-    frenet: frenet::Scratch,
+    /// The hairs in local space.
+    local: Blocks,
+    /// Those as the guides at rest have them, where guides are posed.
+    at_rest: Blocks,
+    /// Hairs as they were before a stage.
+    before: Blocks,
+    hair: [Vec<Vec3>; 2],
+    mixing: MixScratch,
     bundles: BundleScratch,
 }
 
@@ -105,11 +110,21 @@ impl Plan {
         clock: &mut Clock,
     ) {
         self.bend(capture, moment, shapes, clock);
-        let (before, curves) = (&mut shapes.before, &mut shapes.curves);
+        let Shapes {
+            local,
+            hair: [before, _],
+            curves,
+            ..
+        } = shapes;
         let started = clock.start();
-        for (i, frame) in frames.iter().enumerate() {
-            world::to_world(frame, curves.get_mut(i));
-        }
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            for block in 0..local.blocks() {
+                let frames = Frames::of(&frames[local.hairs(block)]);
+                world::to_world(&frames, local.block_mut(block));
+            }
+            local.unroll(curves);
+        });
         let started = clock.stop(Stage::World, started);
         self.draw_together(capture, moment.middles, before, curves);
         clock.stop(Stage::Clump, started);
@@ -118,40 +133,41 @@ impl Plan {
     /// The stages of local space.
     fn bend(&self, capture: &Capture, moment: &Moment, shapes: &mut Shapes, clock: &mut Clock) {
         let Shapes {
-            curves,
+            local,
             at_rest,
             before,
-            noise,
+            hair,
             stay,
-            frenet,
+            mixing,
             ..
         } = shapes;
         let started = clock.start();
-        self.mix(capture, moment.guides, frenet, curves);
+        self.mix(capture, moment.guides, mixing, local);
         if moment.guides.is_some() {
-            self.mix(capture, None, frenet, at_rest);
+            self.mix(capture, None, mixing, at_rest);
         }
-        let rest = moment.guides.map_or(&*curves, |_| &*at_rest);
+        let rest = moment.guides.map_or(&*local, |_| &*at_rest);
         self.find_degenerate(capture, rest, stay);
         let started = clock.stop(Stage::Interpolate, started);
-        self.frizz(capture, moment.time, noise, before, curves);
+        self.frizz(capture, moment.time, before, hair, local);
         let started = clock.stop(Stage::Frizz, started);
         if let Some(fields) = &self.fields.kink {
             // Guides that move must not move hairs through the noise.
             let domain = moment.guides.map(|_| {
-                self.frizz(capture, 0.0, noise, before, at_rest);
-                &at_rest.vertices[..]
+                self.frizz(capture, 0.0, before, hair, at_rest);
+                &*at_rest
             });
-            keep(self.fields.preserve.kink, before, curves, |curves| {
-                let (hairs, frames) = (&capture.kinks, &capture.frames);
-                let Curves { vertices, starts } = curves;
-                let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
-                kink::kink(fields, hairs, frames, range, domain, vertices, noise);
+            keep(self.fields.preserve.kink, before, hair, local, |hairs| {
+                kink::kink(fields, &capture.kinks, &capture.frames, domain, hairs);
             });
         }
         let started = clock.stop(Stage::Kink, started);
-        for (i, stray) in capture.strays.iter().enumerate() {
-            flyaway::stray(stray, capture.lengths[i], curves.get_mut(i), before);
+        let strays = capture.strays.iter().zip(&capture.lengths).enumerate();
+        for (i, (stray, length)) in strays.filter(|(_, (stray, _))| stray.strays()) {
+            let [hair, before] = hair;
+            local.read(i, hair);
+            flyaway::stray(stray, *length, hair, before);
+            local.write(i, hair);
         }
         clock.stop(Stage::Flyaway, started);
     }
@@ -160,36 +176,37 @@ impl Plan {
         &self,
         capture: &Capture,
         time: f32,
-        noise: &mut [Vec<Vec3>; 3],
-        before: &mut Vec<Vec3>,
-        curves: &mut Curves,
+        before: &mut Blocks,
+        hair: &mut [Vec<Vec3>; 2],
+        hairs: &mut Blocks,
     ) {
         let Some(fields) = &self.fields.frizz else {
             return;
         };
-        keep(self.fields.preserve.frizz, before, curves, |curves| {
-            let Curves { vertices, starts } = curves;
-            let range = |i: usize| starts[i] as usize..starts[i + 1] as usize;
-            frizz::frizz(fields, &capture.frizz, time, range, vertices, noise);
+        keep(self.fields.preserve.frizz, before, hair, hairs, |hairs| {
+            frizz::frizz(fields, &capture.frizz, time, hairs);
         });
     }
 }
 
-/// Bends curves; where their length is preserved, their segments get theirs back.
+/// Bends hairs; where their length is preserved, their segments get theirs back.
 fn keep(
     preserved: bool,
-    before: &mut Vec<Vec3>,
-    curves: &mut Curves,
-    bend: impl FnOnce(&mut Curves),
+    before: &mut Blocks,
+    [was, is]: &mut [Vec<Vec3>; 2],
+    hairs: &mut Blocks,
+    bend: impl FnOnce(&mut Blocks),
 ) {
     if preserved {
-        before.clone_from(&curves.vertices);
+        before.clone_from(hairs);
     }
-    bend(curves);
+    bend(hairs);
     if preserved {
-        for i in 0..curves.len() {
-            let range = curves.range(i);
-            length::preserve(&before[range], 1.0, curves.get_mut(i));
+        for i in 0..hairs.len() {
+            before.read(i, was);
+            hairs.read(i, is);
+            length::preserve(was, 1.0, is);
+            hairs.write(i, is);
         }
     }
 }

@@ -1,10 +1,13 @@
 //! Which vertices of the curves of a chunk are written.
 
+use crate::blocks::Blocks;
 use crate::capture::Capture;
 use crate::clock::{Clock, Stage};
 use crate::curves::Curves;
+use crate::lanes::LANES;
 use crate::plan::Plan;
 use crate::stages::{cut, degenerate, thin};
+use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec3;
 
 /// The numbers of the vertices that stay, curve by curve.
@@ -62,17 +65,29 @@ impl Stay {
 
 impl Plan {
     /// Notes which vertices of `hairs`, shaped by their guides at rest, are degenerate.
-    pub(crate) fn find_degenerate(&self, capture: &Capture, hairs: &Curves, stay: &mut Stay) {
+    pub(crate) fn find_degenerate(&self, capture: &Capture, hairs: &Blocks, stay: &mut Stay) {
         stay.degenerate.clear();
         stay.distinct.clear();
         stay.distinct_starts.clear();
         stay.distinct_starts.push(0);
-        for (i, root) in capture.roots.iter().enumerate() {
-            let hair = hairs.get(i);
-            let apart = degenerate::apart(capture.lengths[i], hair.len() - 1, root.rest);
-            if !degenerate::is_sound(hair, apart) {
-                degenerate::distinct(hair, apart, &mut stay.distinct);
-                stay.degenerate.push(i as u32);
+        let apart = |i: usize, vertices: u32| {
+            let (length, root) = (capture.lengths[i], capture.roots[i].rest);
+            degenerate::apart(length, vertices as usize - 1, root)
+        };
+        for block in 0..hairs.blocks() {
+            let shortest = dispatch!(Level::new(), simd => {
+                let _ = simd;
+                degenerate::shortest(hairs.block(block), hairs.lengths(block))
+            });
+            let first = block * LANES;
+            for (lane, &vertices) in hairs.lengths(block).iter().enumerate() {
+                let apart = apart(first + lane, vertices);
+                if shortest[lane] > apart * apart {
+                    continue;
+                }
+                hairs.read(first + lane, &mut stay.points);
+                degenerate::distinct(&stay.points, apart, &mut stay.distinct);
+                stay.degenerate.push((first + lane) as u32);
                 stay.distinct_starts.push(stay.distinct.len() as u32);
             }
         }
@@ -91,8 +106,15 @@ impl Plan {
         stay.kept.clear();
         stay.starts.clear();
         stay.starts.push(0);
+        let whole =
+            self.thinning.is_none() && capture.cuts.is_empty() && stay.degenerate.is_empty();
         for i in 0..curves.len() {
             let (hair, curve) = (i / fibers, curves.get(i));
+            if whole {
+                stay.kept.extend(0..curve.len() as u32);
+                stay.starts.push(stay.kept.len() as u32);
+                continue;
+            }
             stay.leave(hair, cut::kept(curve.len(), capture.cut(hair)));
             match self.thinning {
                 None => stay.kept.extend_from_slice(&stay.left),

@@ -156,6 +156,46 @@ impl StrandBuffer {
         self.root_rest.push(meta.root_rest);
     }
 
+    /// Appends the records of strands whose vertices are there already: each comes with the
+    /// end of its vertices in [`points`](Self::points). Faster than one by one.
+    ///
+    /// ```
+    /// use pelage_strands::{StrandBuffer, StrandMeta};
+    /// let mut strands = StrandBuffer::new();
+    /// strands.points = vec![[0.0; 3]; 5];
+    /// let meta = |hair_id| StrandMeta { hair_id, ..Default::default() };
+    /// strands.extend_meta([(2, meta(7)), (5, meta(8))].into_iter());
+    /// assert_eq!((&strands.offsets[..], &strands.hair_id[..]), (&[0, 2, 5][..], &[7, 8][..]));
+    /// ```
+    #[inline(always)]
+    pub fn extend_meta(&mut self, metas: impl ExactSizeIterator<Item = (u32, StrandMeta)>) {
+        let first = self.len();
+        let all = first + metas.len();
+        self.offsets.resize(all + 1, 0);
+        macro_rules! columns { ($($name:ident),*) => {
+            $(
+                self.$name.resize(all, Default::default());
+                // Of one length for all to see, so that nothing is checked in the loop.
+                let $name = &mut self.$name[first..all];
+            )*
+            let offsets = &mut self.offsets[first + 1..all + 1];
+            for (i, (end, meta)) in metas.enumerate().take(all - first) {
+                offsets[i] = end;
+                $($name[i] = meta.$name;)*
+            }
+        } }
+        columns!(
+            hair_id,
+            strand_id,
+            root_uv,
+            strand_uv,
+            group,
+            triangle,
+            barycentric,
+            root_rest
+        );
+    }
+
     /// Appends all strands of `other`. An array that one of the two lacks while it
     /// has strands is dropped: half an attribute is none.
     ///

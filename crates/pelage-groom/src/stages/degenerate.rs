@@ -5,6 +5,7 @@
 //! apart. Looked at are hairs as their guides shape them at rest, so that what goes is the
 //! same at all times and on all poses. Local space, unit of the mesh.
 
+use crate::lanes::{LANES, Row, Rows};
 use pelage_curves::Vec3;
 
 /// Vertices nearer to each other than this cannot be told apart, in a hair of `segments`
@@ -17,14 +18,21 @@ pub fn apart(length: f32, segments: usize, root: Vec3) -> f32 {
     (segment * 1e-5).max(coordinate * f32::EPSILON)
 }
 
-/// Whether all vertices of `hair` stand apart from those beside them.
-#[inline]
-pub fn is_sound(hair: &[Vec3], apart: f32) -> bool {
-    let square = apart * apart;
-    let steps = hair
-        .windows(2)
-        .map(|pair| pair[0].distance_squared(pair[1]));
-    steps.fold(f32::INFINITY, f32::min) > square
+/// Squares of the shortest steps from vertex to vertex of hairs side by side, which have so
+/// many `vertices`.
+#[inline(always)]
+pub(crate) fn shortest(hairs: &[Rows], vertices: &[u32]) -> Row {
+    let mut counts = [0; LANES];
+    counts[..vertices.len()].copy_from_slice(vertices);
+    let mut shortest = [f32::INFINITY; LANES];
+    for (number, pair) in hairs.windows(2).enumerate() {
+        for lane in 0..LANES {
+            let square = pair[0].get(lane).distance_squared(pair[1].get(lane));
+            let own = (number as u32) + 1 < counts[lane];
+            shortest[lane] = shortest[lane].min(if own { square } else { f32::INFINITY });
+        }
+    }
+    shortest
 }
 
 /// Appends the numbers of the vertices of `hair` that stay; none of a hair that has
@@ -53,7 +61,12 @@ mod tests {
         let hair: Vec<Vec3> = heights.iter().map(|&z| Vec3::Z * z).collect();
         let mut stay = Vec::new();
         distinct(&hair, 1e-3, &mut stay);
-        assert_eq!(is_sound(&hair, 1e-3), stay.len() == hair.len());
+        // In a lane of a block of longer hairs.
+        let rows: Vec<Rows> = (0..9)
+            .map(|k| Rows::of(&[Vec3::ZERO, *hair.get(k).unwrap_or(&Vec3::ZERO)], |v| *v))
+            .collect();
+        let sound = shortest(&rows, &[1, hair.len() as u32])[1] > 1e-6;
+        assert_eq!(sound, stay.len() == hair.len());
         stay
     }
 

@@ -69,11 +69,15 @@ impl Stray {
     }
 }
 
+impl Stray {
+    /// Whether the hair strays.
+    pub(crate) fn strays(&self) -> bool {
+        self.toward != Vec3::ZERO
+    }
+}
+
 /// Bends a hair of nominal length `length` its own way; `before` is scratch.
 pub fn stray(stray: &Stray, length: f32, hair: &mut [Vec3], before: &mut Vec<Vec3>) {
-    if stray.toward == Vec3::ZERO {
-        return;
-    }
     before.clear();
     before.extend_from_slice(hair);
     let step = 1.0 / (hair.len().max(2) - 1) as f32;

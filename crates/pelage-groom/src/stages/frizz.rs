@@ -9,14 +9,16 @@
 //! mesh, time in frames.
 
 use crate::PlanError;
+use crate::blocks::Blocks;
+use crate::lanes::{LANES, Row, Rows};
 use crate::maps::{FieldMaker, ScalarField};
-use crate::noise::noise_vectors;
-use crate::noise_fields::{HairNoise, NoiseFields};
+use crate::noise::noise_row;
+use crate::noise_fields::{Bent, HairNoise, NoiseFields};
 use crate::random::Channel;
 use crate::recipe;
 use crate::stages::roots::Root;
+use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec3;
-use std::ops::Range;
 
 /// The properties of frizz over the surface.
 #[derive(Clone, Debug)]
@@ -38,6 +40,13 @@ pub struct Frizz {
     moving: f32,
     /// At root and tip, or what multiplies the ramp.
     amount: [f32; 2],
+}
+
+impl Bent for Frizz {
+    #[inline(always)]
+    fn amount(&self) -> [f32; 2] {
+        self.amount
+    }
 }
 
 impl FrizzFields {
@@ -83,42 +92,54 @@ impl FrizzFields {
     }
 }
 
-/// Bends hairs at `time`; hair `i` has the vertices `range(i)` of `local`. `places`,
-/// `bends` and `moved` are scratch.
-pub fn frizz(
-    fields: &FrizzFields,
-    hairs: &[Frizz],
-    time: f32,
-    range: impl Fn(usize) -> Range<usize>,
-    local: &mut [Vec3],
-    [places, bends, moved]: &mut [Vec<Vec3>; 3],
-) {
-    let noise_at = |time: f32, places: &mut Vec<Vec3>, bends: &mut Vec<Vec3>| {
-        places.clear();
-        places.extend(hairs.iter().map(|hair| hair.place + hair.velocity * time));
-        bends.resize(hairs.len(), Vec3::ZERO);
-        noise_vectors(fields.noise.seed, places, bends);
-    };
-    noise_at(0.0, places, bends);
-    if time != 0.0 && fields.is_moving() {
-        noise_at(time, places, moved);
-        for ((bend, moved), hair) in bends.iter_mut().zip(moved).zip(hairs) {
-            *bend = *bend * (1.0 - hair.moving) + *moved * hair.moving;
+/// Bends hairs at `time`.
+pub(crate) fn frizz(fields: &FrizzFields, hairs: &[Frizz], time: f32, local: &mut Blocks) {
+    let moving = time != 0.0 && fields.is_moving();
+    dispatch!(Level::new(), simd => {
+        let _ = simd;
+        for block in 0..local.blocks() {
+            let hairs = &hairs[local.hairs(block)];
+            let still = noise_at(fields, hairs, 0.0);
+            let bends = match moving {
+                false => still,
+                true => {
+                    let moved = noise_at(fields, hairs, time);
+                    let parts = part_moving(hairs);
+                    Rows::from_fn(|lane| {
+                        let part = parts[lane];
+                        still.get(lane) * (1.0 - part) + moved.get(lane) * part
+                    })
+                }
+            };
+            let steps = local.steps(block);
+            let vertices = local.block_mut(block).iter_mut().enumerate().skip(1);
+            for (number, vertex) in vertices {
+                let ts = steps.map(|step| number as f32 * step);
+                let amounts = fields.noise.amounts(hairs, &ts, profile);
+                *vertex = Rows::from_fn(|lane| {
+                    let bend = bends.get(lane);
+                    let toward = Vec3::new(bend.x, bend.y, -bend.z.abs());
+                    vertex.get(lane) + toward * amounts[lane]
+                });
+            }
         }
-    }
-    for (i, (hair, bend)) in hairs.iter().zip(&*bends).enumerate() {
-        let toward = Vec3::new(bend.x, bend.y, -bend.z.abs());
-        let amount = |t: f32| fields.noise.amount(hair.amount, t, profile);
-        along(amount, toward, &mut local[range(i)]);
-    }
+    });
+}
+
+/// The noise of the hairs of a block at `time`.
+#[inline(always)]
+fn noise_at(fields: &FrizzFields, hairs: &[Frizz], time: f32) -> Rows {
+    let places = Rows::of(hairs, |hair| hair.place + hair.velocity * time);
+    noise_row(fields.noise.seed, &places)
 }
 
 #[inline(always)]
-fn along(amount: impl Fn(f32) -> f32, toward: Vec3, vertices: &mut [Vec3]) {
-    let step = 1.0 / (vertices.len().max(2) - 1) as f32;
-    for (i, vertex) in vertices.iter_mut().enumerate().skip(1) {
-        *vertex += toward * amount(i as f32 * step);
+fn part_moving(hairs: &[Frizz]) -> Row {
+    let mut parts = [0.0; LANES];
+    for (part, hair) in parts.iter_mut().zip(hairs) {
+        *part = hair.moving;
     }
+    parts
 }
 
 /// The document's amount at `t`, of those at root and tip.
@@ -134,11 +155,7 @@ mod tests {
 
     #[test]
     fn root_frizz_bends_the_middle_and_tip_frizz_the_tip() {
-        let bent = |ends| {
-            let mut vertices = [Vec3::ZERO; 5];
-            along(|t| profile(ends, t), Vec3::X, &mut vertices);
-            vertices.map(|v| v.x)
-        };
+        let bent = |ends| [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| profile(ends, t));
         assert_eq!(bent([1.0, 0.0]), [0.0, 0.75, 1.0, 0.75, 0.0]);
         assert_eq!(bent([0.0, 1.0]), [0.0, 0.0625, 0.25, 0.5625, 1.0]);
         // Nothing is bent more than the larger of the two says.

@@ -5,6 +5,7 @@
 //! [`weights`](super::weights)). Local space, unit of the mesh.
 
 use super::weights::Share;
+use crate::lanes::Rows;
 use pelage_curves::Vec3;
 
 /// Vertices that are mixed together.
@@ -24,24 +25,43 @@ pub fn rows(vertices: &[Vec3]) -> impl Iterator<Item = Row> {
     })
 }
 
-/// Writes the vertices of a hair. `guides` holds the [`rows`] of all guides of the group,
-/// each of `hair.len()` vertices, one guide after the other.
+/// Writes the vertices of a hair into `lane` of `hair`, as many as there are rows there;
+/// those behind the last of the guides stand where that does. `guides` holds the [`rows`] of
+/// all guides of the group, each of `vertices` vertices, one guide after the other.
 #[inline(always)]
-pub fn interpolate(guides: &[Row], shares: &[Share], hair: &mut [Vec3]) {
-    let rows = hair.len().div_ceil(WIDTH);
-    for (row, hair) in hair.chunks_mut(WIDTH).enumerate() {
-        let [mut x, mut y, mut z] = Row::default();
+pub(crate) fn interpolate(
+    guides: &[Row],
+    vertices: usize,
+    shares: &[Share],
+    lane: usize,
+    hair: &mut [Rows],
+) {
+    let (own, behind) = hair.split_at_mut(vertices);
+    let rows = vertices.div_ceil(WIDTH);
+    for (row, hair) in own.chunks_mut(WIDTH).enumerate() {
+        let mut sums = Row::default();
         for share in shares.iter().filter(|share| share.weight != 0.0) {
-            let [gx, gy, gz] = &guides[share.guide as usize * rows + row];
-            for k in 0..WIDTH {
-                x[k] += share.cosine * gx[k] - share.sine * gy[k];
-                y[k] += share.sine * gx[k] + share.cosine * gy[k];
-                z[k] += share.weight * gz[k];
-            }
+            add(share, &guides[share.guide as usize * rows + row], &mut sums);
         }
         for (k, vertex) in hair.iter_mut().enumerate() {
-            *vertex = Vec3::new(x[k], y[k], z[k]);
+            for (axis, sum) in vertex.0.iter_mut().zip(&sums) {
+                axis[lane] = sum[k];
+            }
         }
+    }
+    if let Some(last) = own.last() {
+        let last = last.get(lane);
+        behind.iter_mut().for_each(|vertex| vertex.set(lane, last));
+    }
+}
+
+/// Adds a guide's share in some vertices.
+#[inline(always)]
+fn add(share: &Share, [gx, gy, gz]: &Row, [x, y, z]: &mut Row) {
+    for k in 0..WIDTH {
+        x[k] += share.cosine * gx[k] - share.sine * gy[k];
+        y[k] += share.sine * gx[k] + share.cosine * gy[k];
+        z[k] += share.weight * gz[k];
     }
 }
 
@@ -63,14 +83,12 @@ mod tests {
             cosine: weight,
             sine: 0.0,
         };
-        let mut hair = [Vec3::ONE; 3];
-        interpolate(
-            &guides,
-            &[share(0, 0.2), share(1, 0.5), share(2, 0.3)],
-            &mut hair,
-        );
-        for (h, g) in hair.iter().zip(guide) {
-            assert!(h.distance(g) < 1e-6);
+        let mut hair = [Rows::default(); 5];
+        let shares = [share(0, 0.2), share(1, 0.5), share(2, 0.3)];
+        interpolate(&guides, 3, &shares, 7, &mut hair);
+        for (k, vertex) in hair.iter().enumerate() {
+            assert!(vertex.get(7).distance(guide[k.min(2)]) < 1e-6);
+            assert_eq!(vertex.get(6), Vec3::ZERO);
         }
     }
 }

@@ -6,42 +6,52 @@
 //! a hair keeps growing out of the skin whatever `kink.root`. Local space, unit of the mesh;
 //! frequencies per unit of the mesh.
 
-use crate::noise::noise_vectors;
+use crate::blocks::Blocks;
+use crate::lanes::{Frames, LANES, Rows};
+use crate::noise::noise_row;
 use crate::noise_fields::{HairNoise, NoiseFields};
 use crate::profile::line;
-use pelage_curves::Vec3;
+use fearless_simd::{Level, dispatch};
 use pelage_surface::RootFrame;
-use std::ops::Range;
 
-/// Moves the vertices of hairs; hair `i` has the vertices `range(i)` of `local` and the
-/// frame `frames[i]` at rest. `rest` are the vertices at rest where those of `local` are
-/// others. `places` and `values` are scratch.
-pub fn kink(
+/// Moves the vertices of `local`: of hairs with such noise, whose roots have `frames` at
+/// rest. `rest` are the hairs at rest where those of `local` are others.
+pub(crate) fn kink(
     fields: &NoiseFields,
     hairs: &[HairNoise],
     frames: &[RootFrame],
-    range: impl Fn(usize) -> Range<usize>,
-    rest: Option<&[Vec3]>,
-    local: &mut [Vec3],
-    [places, values, _]: &mut [Vec<Vec3>; 3],
+    rest: Option<&Blocks>,
+    local: &mut Blocks,
 ) {
-    places.resize(local.len(), Vec3::ZERO);
-    values.resize(local.len(), Vec3::ZERO);
-    let rest = rest.unwrap_or(local);
-    for (i, (hair, frame)) in hairs.iter().zip(frames).enumerate() {
-        let range = range(i);
-        for (place, vertex) in places[range.clone()].iter_mut().zip(&rest[range]) {
-            *place = hair.frequency * (frame.position + frame.vector(*vertex));
+    dispatch!(Level::new(), simd => {
+        let _ = simd;
+        for block in 0..local.blocks() {
+            let range = local.hairs(block);
+            let hairs = (&hairs[range.clone()], Frames::of(&frames[range]));
+            let steps = local.steps(block);
+            let rest = rest.map(|rest| rest.block(block));
+            let vertices = local.block_mut(block).iter_mut().enumerate().skip(1);
+            for (number, vertex) in vertices {
+                let ts = steps.map(|step| number as f32 * step);
+                let rest = rest.map_or(*vertex, |rest| rest[number]);
+                move_row(fields, hairs, ts, rest, vertex);
+            }
         }
-    }
-    noise_vectors(fields.seed, places, values);
-    for (i, hair) in hairs.iter().enumerate() {
-        let range = range(i);
-        let step = 1.0 / (range.len().max(2) - 1) as f32;
-        let vertices = local[range.clone()].iter_mut().zip(&values[range]);
-        for (k, (vertex, value)) in vertices.enumerate().skip(1) {
-            let t = k as f32 * step;
-            *vertex += *value * fields.amount(hair.amount, t, line);
-        }
-    }
+    });
+}
+
+/// Moves a vertex of each hair of a block.
+#[inline(always)]
+fn move_row(
+    fields: &NoiseFields,
+    (hairs, frames): (&[HairNoise], Frames),
+    ts: [f32; LANES],
+    rest: Rows,
+    vertex: &mut Rows,
+) {
+    let frequency = Rows::of(hairs, |hair| hair.frequency);
+    let place = |lane| frequency.get(lane) * frames.place(lane, rest.get(lane));
+    let noise = noise_row(fields.seed, &Rows::from_fn(place));
+    let amounts = fields.amounts(hairs, &ts, line);
+    *vertex = Rows::from_fn(|lane| vertex.get(lane) + noise.get(lane) * amounts[lane]);
 }

@@ -6,7 +6,7 @@
 
 use crate::color::{ColorMix, ColorSpace};
 use crate::color_profile::ColorProfile;
-use crate::profile::Profile;
+use crate::profile::{Profile, line};
 
 /// Vertices of a hair that are coloured together.
 const ROW: usize = 8;
@@ -72,8 +72,8 @@ pub(crate) fn along(
         let first = row * ROW;
         let ts = vertices.places(row, numbers);
         let [reds, greens, blues] = fields.color.at(mixes, &ts);
-        let opacity = fields.opacity.row(look.opacity, &ts);
-        let width = fields.width.row(look.width, &ts);
+        let opacity = fields.opacity.row(|_| look.opacity, &ts, line);
+        let width = fields.width.row(|_| look.width, &ts, line);
         for k in 0..numbers.len() {
             colors[first + k] = [reds[k], greens[k], blues[k]];
             opacities[first + k] = opacity[k];

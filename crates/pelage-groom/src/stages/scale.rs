@@ -3,8 +3,8 @@
 //! Source: document 004, section 2.2.2: `amount · (1 - random · ξ)`. A fraction without
 //! unit; local space, where the root is the origin.
 
+use crate::lanes::{Row, Rows};
 use crate::random::{Channel, uniform};
-use pelage_curves::Vec3;
 
 /// The factor of hair `hair` where the properties are `amount` and `random`.
 #[inline]
@@ -13,8 +13,10 @@ pub fn factor(amount: f32, random: f32, seed: u64, hair: u64) -> f32 {
     amount.max(0.0) * (1.0 - shrink)
 }
 
-/// Scales the vertices of a hair about its root.
+/// Scales hairs that lie side by side about their roots.
 #[inline(always)]
-pub fn scale(factor: f32, hair: &mut [Vec3]) {
-    hair.iter_mut().for_each(|v| *v *= factor);
+pub(crate) fn scale(factors: &Row, hairs: &mut [Rows]) {
+    for vertex in hairs {
+        *vertex = Rows::from_fn(|lane| vertex.get(lane) * factors[lane]);
+    }
 }

@@ -2,13 +2,13 @@
 //!
 //! Source: document 004, section 2.2.2. The only stage that sees the pose.
 
-use pelage_curves::Vec3;
-use pelage_surface::RootFrame;
+use crate::lanes::{Frames, Rows};
 
-/// Moves the local vertices of a hair to the space of `frame`, the frame of its root.
-#[inline]
-pub fn to_world(frame: &RootFrame, hair: &mut [Vec3]) {
-    for vertex in hair {
-        *vertex = frame.position + frame.vector(*vertex);
+/// Moves the local vertices of hairs that lie side by side to the space of `frames`, those of
+/// their roots.
+#[inline(always)]
+pub(crate) fn to_world(frames: &Frames, hairs: &mut [Rows]) {
+    for vertex in hairs {
+        *vertex = Rows::from_fn(|lane| frames.place(lane, vertex.get(lane)));
     }
 }

@@ -4,7 +4,7 @@
 //! is rolled such that the tangents agree best, which has a closed form: with a and b for
 //! what lies across the lines, the angle of (∫ a·b, ∫ a×b).
 
-use super::lanes::{LANES, Row, Rows};
+use crate::lanes::{LANES, Row, Rows};
 use pelage_curves::{Vec3, any_perpendicular};
 
 /// Below this part of full agreement about the roll a hair goes over to the mean: less

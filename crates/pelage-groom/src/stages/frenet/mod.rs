@@ -28,12 +28,11 @@
 //! over into the mean of the vertices, stretched to its length.
 
 mod fit;
-mod lanes;
 
 use super::weights::Share;
+use crate::lanes::{LANES, Row, Rows};
 use fearless_simd::{Level, dispatch};
 use fit::{Fit, Lines, Sums, across};
-use lanes::{LANES, Row, Rows};
 use pelage_curves::Vec3;
 use pelage_curves::frenet::polygon::Polygon;
 

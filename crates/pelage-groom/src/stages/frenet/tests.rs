@@ -1,5 +1,5 @@
 use super::*;
-use crate::stages::interpolate::{Row, interpolate, rows};
+use crate::stages::interpolate::{self, Row, rows};
 use pelage_curves::DVec3;
 use pelage_curves::frenet::Frame;
 use proptest::prelude::*;
@@ -45,6 +45,15 @@ fn shares(weights: &[f32]) -> Vec<Share> {
         sine: 0.0,
     });
     shares.collect()
+}
+
+/// The mean of guides, as vertices one after the other.
+fn interpolate(guides: &[Row], shares: &[Share], hair: &mut [Vec3]) {
+    let mut rows = vec![Rows::default(); hair.len()];
+    interpolate::interpolate(guides, hair.len(), shares, 0, &mut rows);
+    for (vertex, row) in hair.iter_mut().zip(&rows) {
+        *vertex = row.get(0);
+    }
 }
 
 fn in_rows(guides: &[Vec<Vec3>]) -> Vec<Row> {
