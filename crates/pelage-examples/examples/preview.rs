@@ -103,8 +103,8 @@ impl Picture {
 
 fn look_up(map: &ImageMap, uv: [f64; 2]) -> [f64; 3] {
     let at = |x: f64, n: u32| ((x * n as f64) as u32).min(n - 1);
-    let texel = map.texel(at(uv[0], map.width()), at(1.0 - uv[1], map.height()));
-    [0, 1, 2].map(|c| texel[c.min(texel.len() - 1)] as f64)
+    let (x, y) = (at(uv[0], map.width()), at(1.0 - uv[1], map.height()));
+    [0, 1, 2].map(|c| map.texel(x, y, c.min(map.channels() - 1)) as f64)
 }
 
 fn picture(example: &Example, view: &View, map: Option<&ImageMap>, guides: bool) -> Picture {

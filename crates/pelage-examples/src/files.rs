@@ -62,7 +62,7 @@ pub fn png(map: &ImageMap) -> io::Result<Vec<u8>> {
     let codes: Vec<u8> = map
         .texels()
         .iter()
-        .map(|t| (t * 255.0).round() as u8)
+        .map(|t: f32| (t * 255.0).round() as u8)
         .collect();
     let mut bytes = Cursor::new(Vec::new());
     image::write_buffer_with_format(

@@ -66,8 +66,10 @@ impl<T: Copy> Texels<T> {
 /// Colour codes of an image's texels; grey ones have equal parts.
 pub(crate) fn codes(map: &ImageMap) -> impl Iterator<Item = [u8; 3]> {
     let channels = map.channels() as usize;
-    map.texels().chunks_exact(channels).map(move |t| {
-        let code = |k: usize| (t[if channels >= 3 { k } else { 0 }] * 255.0 + 0.5) as u8;
+    let texels = map.texels();
+    (0..texels.len() / channels).map(move |texel| {
+        let number = |k: usize| texels.get(texel * channels + if channels >= 3 { k } else { 0 });
+        let code = |k: usize| (number(k) * 255.0 + 0.5) as u8;
         [code(0), code(1), code(2)]
     })
 }

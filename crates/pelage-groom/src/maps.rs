@@ -9,7 +9,8 @@ use crate::recipe::{Blend, Channel, ColorProperty, MapSpace, MapUse, ScalarPrope
 use crate::texture::Texture;
 use pelage_curves::Vec2;
 use pelage_surface::{
-    Density, Displacement, ImageMap, Mesh, RootSampler, TiledDensity, Tiles, linear_from_srgb,
+    Density, Displacement, ImageMap, Mesh, RootSampler, Texels, TiledDensity, Tiles,
+    linear_from_srgb,
 };
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -297,7 +298,7 @@ fn refuse_negative(
     tile: Option<u32>,
     image: &ImageMap,
 ) -> Result<(), PlanError> {
-    let Some(texel) = image.texels().iter().position(|t| *t < 0.0) else {
+    let Some(texel) = image.texels().iter().position(|t| t < 0.0) else {
         return Ok(());
     };
     let path = &used.path;
@@ -307,7 +308,7 @@ fn refuse_negative(
         x: (texel % image.width() as usize) as u32,
         y: (texel / image.width() as usize) as u32,
         channel: used.channel.unwrap_or(Channel::Red),
-        value: image.texels()[texel],
+        value: image.texels().get(texel),
     })
 }
 
@@ -315,18 +316,22 @@ fn refuse_negative(
 fn one_channel(image: &ImageMap, channel: Channel, srgb: bool) -> ImageMap {
     let decode = |code: f32| if srgb { linear_from_srgb(code) } else { code };
     let channels = image.channels() as usize;
-    let pick = |texel: &[f32]| match channel {
+    let all = image.texels();
+    let one = |k: usize| all.every(k, channels);
+    let texels: Texels = match channel {
         Channel::Luminance if channels >= 3 => {
-            0.2126 * decode(texel[0]) + 0.7152 * decode(texel[1]) + 0.0722 * decode(texel[2])
+            let [red, green, blue] = [0, 1, 2].map(|k| one(k).map(decode));
+            let parts = red.iter().zip(green.iter()).zip(blue.iter());
+            let luminance = |((r, g), b)| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+            parts.map(luminance).collect::<Vec<f32>>().into()
         }
         // A one- or two-channel image is grey, with alpha last.
-        Channel::Alpha if channels == 2 || channels == 4 => texel[channels - 1],
-        Channel::Alpha => 1.0,
-        Channel::Green if channels >= 3 => decode(texel[1]),
-        Channel::Blue if channels >= 3 => decode(texel[2]),
-        _ => decode(texel[0]),
+        Channel::Alpha if channels == 2 || channels == 4 => one(channels - 1),
+        Channel::Alpha => one(0).map(|_| 1.0),
+        Channel::Green if channels >= 3 => one(1).map(decode),
+        Channel::Blue if channels >= 3 => one(2).map(decode),
+        _ => one(0).map(decode),
     };
-    let texels = image.texels().chunks_exact(channels).map(pick).collect();
     ImageMap::new(
         image.width(),
         image.height(),

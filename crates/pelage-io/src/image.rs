@@ -61,7 +61,7 @@ impl Format {
 pub(crate) struct Texels {
     pub size: Size,
     /// Rows from the top, channels interleaved.
-    pub numbers: Vec<f32>,
+    pub numbers: pelage_surface::Texels,
     pub eight_bit: bool,
 }
 
@@ -128,7 +128,7 @@ pub(crate) fn decode_error(path: &Path, error: impl std::fmt::Display) -> ReadEr
 
 fn decode(bytes: &[u8], format: ImageFormat, path: &Path) -> Result<Texels, ReadError> {
     let mut limits = Limits::default();
-    // Texels take 4 bytes at most before they become f32 here.
+    // Numbers take 4 bytes at most.
     limits.max_alloc = Some(MOST_NUMBERS * 4);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
@@ -155,31 +155,18 @@ fn decode(bytes: &[u8], format: ImageFormat, path: &Path) -> Result<Texels, Read
     })
 }
 
-fn numbers_of(image: DynamicImage) -> Option<Vec<f32>> {
+fn numbers_of(image: DynamicImage) -> Option<pelage_surface::Texels> {
     Some(match image {
-        DynamicImage::ImageLuma8(image) => from_u8(image.as_raw()),
-        DynamicImage::ImageLumaA8(image) => from_u8(image.as_raw()),
-        DynamicImage::ImageRgb8(image) => from_u8(image.as_raw()),
-        DynamicImage::ImageRgba8(image) => from_u8(image.as_raw()),
-        DynamicImage::ImageLuma16(image) => from_u16(image.as_raw()),
-        DynamicImage::ImageLumaA16(image) => from_u16(image.as_raw()),
-        DynamicImage::ImageRgb16(image) => from_u16(image.as_raw()),
-        DynamicImage::ImageRgba16(image) => from_u16(image.as_raw()),
-        DynamicImage::ImageRgb32F(image) => image.into_raw(),
-        DynamicImage::ImageRgba32F(image) => image.into_raw(),
+        DynamicImage::ImageLuma8(image) => image.into_raw().into(),
+        DynamicImage::ImageLumaA8(image) => image.into_raw().into(),
+        DynamicImage::ImageRgb8(image) => image.into_raw().into(),
+        DynamicImage::ImageRgba8(image) => image.into_raw().into(),
+        DynamicImage::ImageLuma16(image) => image.into_raw().into(),
+        DynamicImage::ImageLumaA16(image) => image.into_raw().into(),
+        DynamicImage::ImageRgb16(image) => image.into_raw().into(),
+        DynamicImage::ImageRgba16(image) => image.into_raw().into(),
+        DynamicImage::ImageRgb32F(image) => image.into_raw().into(),
+        DynamicImage::ImageRgba32F(image) => image.into_raw().into(),
         _ => return None,
     })
-}
-
-/// 8-bit codes as 0..=1.
-pub(crate) fn from_u8(codes: &[u8]) -> Vec<f32> {
-    codes.iter().map(|&code| f32::from(code) / 255.0).collect()
-}
-
-/// 16-bit codes as 0..=1.
-pub(crate) fn from_u16(codes: &[u16]) -> Vec<f32> {
-    codes
-        .iter()
-        .map(|&code| f32::from(code) / 65535.0)
-        .collect()
 }

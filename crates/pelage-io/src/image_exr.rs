@@ -42,7 +42,7 @@ pub(crate) fn texels(bytes: &[u8], path: &Path) -> Result<Texels, ReadError> {
     }
     Ok(Texels {
         size,
-        numbers,
+        numbers: numbers.into(),
         eight_bit: false,
     })
 }

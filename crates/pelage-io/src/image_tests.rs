@@ -32,12 +32,12 @@ fn png_codes_come_back_undecoded() {
         let map = read_image(&path).unwrap();
         assert!(map.is_eight_bit());
         assert_eq!(map.channels(), channels);
-        assert_eq!(map.texels()[5], 5.0 / 255.0);
+        assert_eq!(map.texels().get(5), 5.0 / 255.0);
         let codes: Vec<u16> = (0..6 * channels as u16).map(|c| c * 2000).collect();
         write_png(&path, 3, 2, channels, PngCodes::Sixteen(&codes)).unwrap();
         let map = read_image(&path).unwrap();
         assert!(!map.is_eight_bit());
-        assert_eq!(map.texels()[5], 10000.0 / 65535.0);
+        assert_eq!(map.texels().get(5), 10000.0 / 65535.0);
     }
 }
 
@@ -50,7 +50,7 @@ fn exr_floats_come_back_exactly_in_any_channel_count() {
         write_exr(&path, 2, 3, channels, &numbers).unwrap();
         let map = read_image(&path).unwrap();
         assert_eq!((map.width(), map.height()), (2, 3));
-        assert_eq!(map.texels(), numbers);
+        assert!(map.texels().iter().eq(numbers));
         assert!(!map.is_eight_bit());
     }
 }
@@ -68,13 +68,13 @@ fn a_texel_that_is_not_finite_is_named() {
 #[test]
 fn tiff_of_every_depth_is_read() {
     let map = parse(&tiff::<colortype::Gray8>(2, 1, &[0, 51])).unwrap();
-    assert_eq!(map.texels(), [0.0, 0.2]);
+    assert!(map.texels().iter().eq([0.0, 0.2]));
     assert!(map.is_eight_bit());
     let map = parse(&tiff::<colortype::RGB16>(1, 1, &[0, 65535, 13107])).unwrap();
-    assert_eq!(map.texels(), [0.0, 1.0, 0.2]);
+    assert!(map.texels().iter().eq([0.0, 1.0, 0.2]));
     assert!(!map.is_eight_bit());
     let map = parse(&tiff::<colortype::Gray32Float>(2, 1, &[-1.5, 7.0])).unwrap();
-    assert_eq!(map.texels(), [-1.5, 7.0]);
+    assert!(map.texels().iter().eq([-1.5, 7.0]));
     assert_eq!(map.channels(), 1);
 }
 
@@ -86,12 +86,13 @@ fn jpeg_and_radiance_are_read() {
         .unwrap();
     let map = parse(&jpeg).unwrap();
     assert!(map.is_eight_bit() && map.channels() == 3);
-    assert!((map.texels()[0] - 0.5).abs() < 0.02);
+    assert!((map.texels().get(0) - 0.5).abs() < 0.02);
     let mut hdr = Vec::new();
     image::codecs::hdr::HdrEncoder::new(&mut hdr)
         .encode(&[image::Rgb([4.0, 0.5, 0.25]); 16], 8, 2)
         .unwrap();
-    assert_eq!(parse(&hdr).unwrap().texel(7, 1), [4.0, 0.5, 0.25]);
+    let hdr = parse(&hdr).unwrap();
+    assert_eq!([0, 1, 2].map(|k| hdr.texel(7, 1, k)), [4.0, 0.5, 0.25]);
 }
 
 #[test]

@@ -4,7 +4,7 @@
 //! painting programs write for density maps. The decoder below it is the same.
 
 use crate::ReadError;
-use crate::image::{Size, Texels, decode_error, from_u8, from_u16};
+use crate::image::{Size, Texels, decode_error};
 use std::io::Cursor;
 use std::path::Path;
 use tiff::ColorType;
@@ -91,17 +91,26 @@ fn channels(color: ColorType, path: &Path) -> Result<u32, ReadError> {
     }
 }
 
-fn numbers_of(result: DecodingResult) -> Option<Vec<f32>> {
+fn numbers_of(result: DecodingResult) -> Option<pelage_surface::Texels> {
     Some(match result {
-        DecodingResult::U8(codes) => from_u8(&codes),
-        DecodingResult::U16(codes) => from_u16(&codes),
+        DecodingResult::U8(codes) => codes.into(),
+        DecodingResult::U16(codes) => codes.into(),
         DecodingResult::U32(codes) => codes
             .iter()
             .map(|&code| (f64::from(code) / f64::from(u32::MAX)) as f32)
-            .collect(),
-        DecodingResult::F16(numbers) => numbers.iter().map(|n| n.to_f32()).collect(),
-        DecodingResult::F32(numbers) => numbers,
-        DecodingResult::F64(numbers) => numbers.iter().map(|&n| n as f32).collect(),
+            .collect::<Vec<f32>>()
+            .into(),
+        DecodingResult::F16(numbers) => numbers
+            .iter()
+            .map(|n| n.to_f32())
+            .collect::<Vec<f32>>()
+            .into(),
+        DecodingResult::F32(numbers) => numbers.into(),
+        DecodingResult::F64(numbers) => numbers
+            .iter()
+            .map(|&n| n as f32)
+            .collect::<Vec<f32>>()
+            .into(),
         _ => return None,
     })
 }

@@ -126,6 +126,12 @@ fn blotches() -> ImageMap {
         );
         0.55 + 0.45 * libm::sinf(TAU * 3.0 * x) * libm::sinf(TAU * 2.0 * y)
     };
-    ImageMap::new(SIDE, SIDE, 1, (0..SIDE * SIDE).map(texel).collect(), false)
-        .unwrap_or_else(|error| unreachable!("a map of that size: {error:?}"))
+    ImageMap::new(
+        SIDE,
+        SIDE,
+        1,
+        (0..SIDE * SIDE).map(texel).collect::<Vec<f32>>(),
+        false,
+    )
+    .unwrap_or_else(|error| unreachable!("a map of that size: {error:?}"))
 }

@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }))?;
     for (name, texel) in MAPS {
         let dice = |i: u32| (hash(i as u64) >> 11) as f64 / (1u64 << 53) as f64;
-        let texels = (0..SIDE * SIDE).map(|i| texel(dice(i)) as f32).collect();
+        let texels: Vec<f32> = (0..SIDE * SIDE).map(|i| texel(dice(i)) as f32).collect();
         let map = ImageMap::new(SIDE, SIDE, 1, texels, false)?;
         pool.install(|| measure(name, &torus, &map, rounds))?;
     }

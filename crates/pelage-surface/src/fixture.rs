@@ -9,7 +9,7 @@ pub(crate) fn sheet(n: u32) -> Mesh {
 }
 
 pub(crate) fn spots() -> ImageMap {
-    let texels = (0..64 * 64)
+    let texels: Vec<f32> = (0..64 * 64)
         .map(|i| {
             if (i / 7 + i / 64 / 5) % 3 == 0 {
                 0.0
@@ -24,7 +24,7 @@ pub(crate) fn spots() -> ImageMap {
 /// Maps of every kind that tests go through, with their names.
 pub(crate) fn maps() -> Vec<(&'static str, ImageMap)> {
     let map = |texel: &dyn Fn(u32, u32) -> f32| {
-        let texels = (0..64 * 64).map(|i| texel(i % 64, i / 64)).collect();
+        let texels: Vec<f32> = (0..64 * 64).map(|i| texel(i % 64, i / 64)).collect();
         ImageMap::new(64, 64, 1, texels, false).unwrap()
     };
     let noise = |x: u32, y: u32| (crate::hash((y * 64 + x) as u64) >> 40) as f32 / (1 << 24) as f32;

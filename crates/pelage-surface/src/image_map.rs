@@ -1,5 +1,6 @@
 //! Images that modulate properties over the surface.
 
+use crate::texels::{Numbers, Texels, with_numbers};
 use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec2;
 
@@ -69,28 +70,29 @@ pub enum MapError {
     },
 }
 
-/// Linear f32 texels, 1 to 4 channels, first row at the top (v = 1).
+/// Texels of 1 to 4 channels, first row at the top (v = 1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImageMap {
     width: u32,
     height: u32,
     channels: u32,
-    texels: Vec<f32>,
+    texels: Texels,
     /// Whether the texels came from 8-bit codes, which colour maps read as sRGB.
     eight_bit: bool,
 }
 
 impl ImageMap {
     /// A map of `width × height` texels of `channels` interleaved numbers, rows
-    /// from the top. `eight_bit` tells that the file stored 8-bit codes (already
-    /// divided by 255 here, but not yet decoded from sRGB).
+    /// from the top. `eight_bit` tells that the file stored 8-bit codes, not yet decoded
+    /// from sRGB, whatever they are kept as here.
     pub fn new(
         width: u32,
         height: u32,
         channels: u32,
-        texels: Vec<f32>,
+        texels: impl Into<Texels>,
         eight_bit: bool,
     ) -> Result<Self, MapError> {
+        let texels = texels.into();
         if width == 0 || height == 0 || channels == 0 {
             return Err(MapError::Empty { width, height });
         }
@@ -103,13 +105,13 @@ impl ImageMap {
                 channels,
             });
         }
-        if let Some(i) = texels.iter().position(|t| !t.is_finite()) {
+        if let Some(i) = texels.iter().position(|t: f32| !t.is_finite()) {
             let texel = i / channels as usize;
             return Err(MapError::NotFinite {
                 x: (texel % width as usize) as u32,
                 y: (texel / width as usize) as u32,
                 channel: (i % channels as usize) as u32,
-                value: texels[i].to_string(),
+                value: texels.get(i).to_string(),
             });
         }
         Ok(Self {
@@ -142,14 +144,18 @@ impl ImageMap {
     }
 
     /// All texels, rows from the top, channels interleaved.
-    pub fn texels(&self) -> &[f32] {
+    pub fn texels(&self) -> &Texels {
         &self.texels
     }
 
-    /// The texel in column `x`, row `y` from the top, as a slice of its channels.
-    pub fn texel(&self, x: u32, y: u32) -> &[f32] {
-        let start = (y as usize * self.width as usize + x as usize) * self.channels as usize;
-        &self.texels[start..start + self.channels as usize]
+    /// Number `channel` of the texel in column `x`, row `y` from the top.
+    ///
+    /// Panics where there is none.
+    #[inline(always)]
+    pub fn texel(&self, x: u32, y: u32, channel: u32) -> f32 {
+        let texel = y as usize * self.width as usize + x as usize;
+        self.texels
+            .get(texel * self.channels as usize + channel as usize)
     }
 
     /// Bilinear value of `channel` at `(u, v)`, origin lower left: the first row of
@@ -157,9 +163,9 @@ impl ImageMap {
     /// does not have reads its last one.
     #[inline(always)]
     pub fn sample(&self, u: f32, v: f32, channel: u32, wrap: Wrap) -> f32 {
-        let channel = channel.min(self.channels - 1) as usize;
+        let channel = channel.min(self.channels - 1);
         self.around(u, v, wrap)
-            .texels(|x, y| self.texel(x, y)[channel])
+            .texels(|x, y| self.texel(x, y, channel))
     }
 
     /// Bilinear colour at `(u, v)`: the first three channels, or the first alone as
@@ -167,8 +173,8 @@ impl ImageMap {
     pub fn sample_rgb(&self, u: f32, v: f32, wrap: Wrap) -> [f32; 3] {
         let around = self.around(u, v, wrap);
         std::array::from_fn(|k| {
-            let channel = if self.channels >= 3 { k } else { 0 };
-            around.texels(|x, y| self.texel(x, y)[channel])
+            let channel = if self.channels >= 3 { k as u32 } else { 0 };
+            around.texels(|x, y| self.texel(x, y, channel))
         })
     }
 
@@ -178,27 +184,31 @@ impl ImageMap {
     /// little is done between two readings: so processors wait for many at once.
     pub fn sample_all(&self, uvs: &[Vec2], channel: u32, wrap: Wrap, values: &mut [f32]) {
         let channel = channel.min(self.channels - 1) as usize;
-        for (uvs, values) in uvs.chunks(BATCH).zip(values.chunks_mut(BATCH)) {
-            let corners = self.corners(uvs, wrap);
-            for (value, corners) in values.iter_mut().zip(&corners) {
-                *value = corners.blend(|at| self.texels[at + channel]);
+        with_numbers!(&self.texels, numbers => {
+            for (uvs, values) in uvs.chunks(BATCH).zip(values.chunks_mut(BATCH)) {
+                let corners = self.corners(uvs, wrap);
+                for (value, corners) in values.iter_mut().zip(&corners) {
+                    *value = corners.blend(|at| numbers.number(at + channel));
+                }
             }
-        }
+        })
     }
 
     /// Writes [`sample_rgb`](Self::sample_rgb) at all of `uvs` to `colors`, of the same
     /// length.
     pub fn sample_rgb_all(&self, uvs: &[Vec2], wrap: Wrap, colors: &mut [[f32; 3]]) {
-        for (uvs, colors) in uvs.chunks(BATCH).zip(colors.chunks_mut(BATCH)) {
-            let corners = self.corners(uvs, wrap);
-            for (color, corners) in colors.iter_mut().zip(&corners) {
-                *color = if self.channels >= 3 {
-                    std::array::from_fn(|k| corners.blend(|at| self.texels[at + k]))
-                } else {
-                    [corners.blend(|at| self.texels[at]); 3]
-                };
+        with_numbers!(&self.texels, numbers => {
+            for (uvs, colors) in uvs.chunks(BATCH).zip(colors.chunks_mut(BATCH)) {
+                let corners = self.corners(uvs, wrap);
+                for (color, corners) in colors.iter_mut().zip(&corners) {
+                    *color = if self.channels >= 3 {
+                        std::array::from_fn(|k| corners.blend(|at| numbers.number(at + k)))
+                    } else {
+                        [corners.blend(|at| numbers.number(at)); 3]
+                    };
+                }
             }
-        }
+        })
     }
 
     /// Where the texels around each of up to [`BATCH`] places begin.
@@ -263,17 +273,11 @@ impl ImageMap {
         inside
     }
 
-    /// The texel that `(u, v)` falls in, unfiltered: for maps whose colours are names.
-    pub fn nearest(&self, u: f32, v: f32, wrap: Wrap) -> &[f32] {
-        let [x, y] = wrap.texel([u, v], [self.width, self.height]);
-        self.texel(x, y)
-    }
-
     /// A map with the same size whose texels are `f` of this one's.
     pub fn map_texels(&self, f: impl Fn(f32) -> f32) -> Self {
         Self {
-            texels: self.texels.iter().map(|&t| f(t)).collect(),
-            ..self.clone()
+            texels: self.texels.map(f),
+            ..*self
         }
     }
 
@@ -409,7 +413,6 @@ mod tests {
     fn the_first_row_is_at_the_top() {
         assert_eq!(four().sample(0.25, 0.75, 0, Wrap::Clamp), 0.0);
         assert_eq!(four().sample(0.75, 0.25, 0, Wrap::Clamp), 3.0);
-        assert_eq!(four().nearest(0.9, 0.9, Wrap::Repeat), [1.0]);
     }
 
     #[test]
@@ -439,8 +442,13 @@ mod tests {
     #[test]
     fn many_at_once_are_those_one_by_one() {
         let image = |channels| {
-            let texels = (0..35 * channels).map(|i| (i * 37 % 19) as f32).collect();
-            ImageMap::new(7, 5, channels, texels, false).unwrap()
+            let codes = (0..35 * channels).map(|i| (i * 37 % 19) as u8);
+            let [codes, wide, floats]: [Texels; 3] = [
+                codes.clone().collect::<Vec<_>>().into(),
+                codes.clone().map(u16::from).collect::<Vec<_>>().into(),
+                codes.map(f32::from).collect::<Vec<_>>().into(),
+            ];
+            [codes, wide, floats].map(|t| ImageMap::new(7, 5, channels, t, false).unwrap())
         };
         let coordinate = |i: u32, step: u32| (i * step % 211) as f32 / 210.0;
         let inside = |i| Vec2::new(coordinate(i, 3), coordinate(i, 50)) * 0.8 + 0.1;
@@ -449,20 +457,21 @@ mod tests {
         uvs.extend([0.0, 1.0, 1e-9, -0.3, 7.2, f32::NAN, f32::INFINITY, -1e30].map(Vec2::splat));
         for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
             for channels in 1..=4 {
-                let image = image(channels);
-                let mut values = vec![0.0; uvs.len()];
-                image.sample_all(&uvs, channels - 1, wrap, &mut values);
-                let mut colors = vec![[0.0; 3]; uvs.len()];
-                image.sample_rgb_all(&uvs, wrap, &mut colors);
-                let bits = |color: [f32; 3]| color.map(f32::to_bits);
-                for (uv, (value, color)) in uvs.iter().zip(values.iter().zip(colors)) {
-                    let alone = image.sample(uv.x, uv.y, channels - 1, wrap);
-                    assert_eq!(value.to_bits(), alone.to_bits(), "{uv}");
-                    assert_eq!(
-                        bits(color),
-                        bits(image.sample_rgb(uv.x, uv.y, wrap)),
-                        "{uv}"
-                    );
+                for image in image(channels) {
+                    let mut values = vec![0.0; uvs.len()];
+                    image.sample_all(&uvs, channels - 1, wrap, &mut values);
+                    let mut colors = vec![[0.0; 3]; uvs.len()];
+                    image.sample_rgb_all(&uvs, wrap, &mut colors);
+                    let bits = |color: [f32; 3]| color.map(f32::to_bits);
+                    for (uv, (value, color)) in uvs.iter().zip(values.iter().zip(colors)) {
+                        let alone = image.sample(uv.x, uv.y, channels - 1, wrap);
+                        assert_eq!(value.to_bits(), alone.to_bits(), "{uv}");
+                        assert_eq!(
+                            bits(color),
+                            bits(image.sample_rgb(uv.x, uv.y, wrap)),
+                            "{uv}"
+                        );
+                    }
                 }
             }
         }
@@ -473,7 +482,7 @@ mod tests {
         for bad in [f32::NAN, f32::INFINITY, -1e30] {
             for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
                 four().sample(bad, bad, 0, wrap);
-                four().nearest(bad, bad, wrap);
+                wrap.texel([bad, bad], [2, 2]);
             }
         }
     }

@@ -189,7 +189,7 @@ mod tests {
     fn a_piece_too_dim_for_any_number_has_no_way_back() {
         let mesh = sheet(2);
         let texels = (0..64).map(|i| if i == 9 { 1e30 } else { 1e-30 });
-        let map = ImageMap::new(8, 8, 1, texels.collect(), false).unwrap();
+        let map = ImageMap::new(8, 8, 1, texels.collect::<Vec<f32>>(), false).unwrap();
         let density = Density {
             value: 1.0,
             map: Some((&map, 0, Wrap::Clamp)),

@@ -115,7 +115,7 @@ impl Tiles<Arc<ImageMap>> {
     /// there is no tile.
     pub fn sample(&self, u: f32, v: f32, channel: u32) -> Option<f32> {
         self.blend(u, v, |image, x, y| {
-            image.texel(x, y)[channel.min(image.channels() - 1) as usize]
+            image.texel(x, y, channel.min(image.channels() - 1))
         })
     }
 
@@ -124,7 +124,7 @@ impl Tiles<Arc<ImageMap>> {
     pub fn sample_rgb(&self, u: f32, v: f32) -> Option<[f32; 3]> {
         let channel = |k| {
             self.blend(u, v, |image, x, y| {
-                image.texel(x, y)[if image.channels() >= 3 { k } else { 0 }]
+                image.texel(x, y, if image.channels() >= 3 { k } else { 0 })
             })
         };
         Some([channel(0)?, channel(1)?, channel(2)?])

@@ -5,6 +5,7 @@
 //! arithmetic of many places runs at once.
 
 use crate::image_map::{bilinear, floor, wrapped};
+use crate::texels::{Numbers, Texels, with_numbers};
 use crate::{ImageMap, Wrap};
 use pelage_curves::Vec2;
 
@@ -30,34 +31,29 @@ impl ImageMap {
         wrap: Wrap,
         values: &mut [f32],
     ) {
-        let Some((window, inside)) = self.window(corners, channel, wrap) else {
-            for (value, &weights) in values.iter_mut().zip(weights) {
-                let uv = place(corners, weights);
-                *value = self.sample(uv.x, uv.y, channel, wrap);
+        with_numbers!(self.texels(), numbers => {
+            match self.window(numbers, corners, channel, wrap) {
+                Some((window, inside)) => window.sample_all(inside, weights, values),
+                None => {
+                    for (value, &weights) in values.iter_mut().zip(weights) {
+                        let uv = place(corners, weights);
+                        *value = self.sample(uv.x, uv.y, channel, wrap);
+                    }
+                }
             }
-            return;
-        };
-        let (rows, rest) = weights.as_chunks::<LANES>();
-        let (whole, values) = values.split_at_mut(weights.len() - rest.len());
-        for (row, values) in rows.iter().zip(whole.as_chunks_mut().0) {
-            *values = window.sample(inside, row);
-        }
-        if !rest.is_empty() {
-            let mut row = [[0.0; 2]; LANES];
-            row[..rest.len()].copy_from_slice(rest);
-            values.copy_from_slice(&window.sample(inside, &row)[..rest.len()]);
-        }
+        })
     }
 
     /// The texels around a triangle, and its corners counted in them, if they lie in the
     /// image side by side.
     #[inline(always)]
-    fn window(
+    fn window<T: Numbers>(
         &self,
+        numbers: T,
         corners: [Vec2; 3],
         channel: u32,
         wrap: Wrap,
-    ) -> Option<(Window<'_>, [Vec2; 3])> {
+    ) -> Option<(Window<T>, [Vec2; 3])> {
         let size = [self.width(), self.height()];
         let texels = corners.map(|uv| self.texels_at(uv.to_array()));
         let (mut first, mut base, mut last) = ([0; 2], [0.0; 2], [0; 2]);
@@ -81,8 +77,8 @@ impl ImageMap {
         // Of the last row but one; the same number follows a row below.
         let len = last[1] as usize * stride + (last[0] as usize + 1) * channels + 1;
         let window = Window {
-            upper: &self.texels()[start..][..len],
-            lower: &self.texels()[start + stride..][..len],
+            upper: numbers.part(start, len),
+            lower: numbers.part(start + stride, len),
             channels: channels as u32,
             stride: stride as u32,
             last,
@@ -93,18 +89,34 @@ impl ImageMap {
 }
 
 /// Texels of one channel that lie side by side in an image.
-struct Window<'a> {
+struct Window<T> {
     /// From the first on, without the last row.
-    upper: &'a [f32],
+    upper: T,
     /// The same from the second row on.
-    lower: &'a [f32],
+    lower: T,
     channels: u32,
     stride: u32,
     /// Last column and row that has another beside it.
     last: [i32; 2],
 }
 
-impl Window<'_> {
+impl<T: Numbers> Window<T> {
+    /// Writes the values at places of a triangle whose corners count from the centre of the
+    /// first texel: for each of `weights`, those of its second and third corner.
+    #[inline(always)]
+    fn sample_all(&self, inside: [Vec2; 3], weights: &[[f32; 2]], values: &mut [f32]) {
+        let (rows, rest) = weights.as_chunks::<LANES>();
+        let (whole, values) = values.split_at_mut(weights.len() - rest.len());
+        for (row, values) in rows.iter().zip(whole.as_chunks_mut().0) {
+            *values = self.sample(inside, row);
+        }
+        if !rest.is_empty() {
+            let mut row = [[0.0; 2]; LANES];
+            row[..rest.len()].copy_from_slice(rest);
+            values.copy_from_slice(&self.sample(inside, &row)[..rest.len()]);
+        }
+    }
+
     /// Bilinear values at places of a triangle whose `corners` count from the centre of the
     /// first texel.
     #[inline(always)]
@@ -121,14 +133,14 @@ impl Window<'_> {
         }
         let mut around = [[0.0; LANES]; 4];
         // The two are of one length, and 64 bits do not overflow: one test is enough.
-        let (upper, lower) = (self.upper, &self.lower[..self.upper.len()]);
+        let (upper, lower) = (self.upper, self.lower.part(0, self.upper.count()));
         for k in 0..LANES {
             let left = first[k] as usize;
             let right = left + self.channels as usize;
-            around[1][k] = upper[right];
-            around[3][k] = lower[right];
-            around[0][k] = upper[left];
-            around[2][k] = lower[left];
+            around[1][k] = upper.number(right);
+            around[3][k] = lower.number(right);
+            around[0][k] = upper.number(left);
+            around[2][k] = lower.number(left);
         }
         for k in 0..LANES {
             values[k] = bilinear(around.each_ref().map(|row| row[k]), across[k], down[k]);

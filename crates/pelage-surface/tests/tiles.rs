@@ -17,7 +17,7 @@ const SIZE: [u32; 2] = [12, 10];
 
 fn image([width, height]: [u32; 2], texel: impl Fn(u32, u32) -> f32) -> ImageMap {
     let texels = (0..width * height).map(|i| texel(i % width, i / width));
-    ImageMap::new(width, height, 1, texels.collect(), false).unwrap()
+    ImageMap::new(width, height, 1, texels.collect::<Vec<f32>>(), false).unwrap()
 }
 
 /// Noise over all tiles, a third of it black; rows from the top of the upper tiles.

@@ -30,7 +30,7 @@ fn block(column: i64, row: i64) -> f32 {
 fn map() -> ImageMap {
     let side = BLOCKS * TEXELS;
     let texel = |i| block(i % side / TEXELS, i / side / TEXELS);
-    let texels = (0..side * side).map(texel).collect();
+    let texels: Vec<f32> = (0..side * side).map(texel).collect();
     ImageMap::new(side as u32, side as u32, 1, texels, false).unwrap()
 }
 

@@ -137,7 +137,7 @@ impl Lamp {
     /// The same with uniform roots of which as many are taken as the radiance says: their
     /// density is the radiance over `flux`, its integral.
     fn by_rejection(&self, uniform: &RootSampler, flux: f64, samples: u64) -> f64 {
-        let brightest = self.radiance.texels().iter().copied().fold(0.0, f32::max);
+        let brightest = self.radiance.texels().iter().fold(0.0, f32::max);
         let taken = (0..)
             .map(|i| (uniform.root(i), (hash(!i) >> 40) as f64 / (1 << 24) as f64))
             .filter(|(root, coin)| coin * (brightest as f64) < self.radiance(root))
@@ -181,6 +181,6 @@ fn pattern() -> Result<ImageMap, Box<dyn Error>> {
         let near = (1.0 - x * x - y * y).max(0.0);
         1.0 + 60.0 * lit * near * near
     };
-    let texels = (0..size * size).map(texel).collect();
+    let texels: Vec<f32> = (0..size * size).map(texel).collect();
     Ok(ImageMap::new(size, size, 1, texels, false)?)
 }

@@ -56,7 +56,7 @@ fn eyes_nose_and_soles_grow_nothing() {
         }
         let middle = (uv[0] + uv[1] + uv[2]) / 3.0 * SMALL.texels as f64;
         let row = SMALL.texels as u32 - 1 - middle.y as u32;
-        assert_eq!(density.texel(middle.x as u32, row), [0.0]);
+        assert_eq!(density.texel(middle.x as u32, row, 0), 0.0);
     }
 }
 

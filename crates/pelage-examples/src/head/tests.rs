@@ -45,7 +45,8 @@ fn the_parting_has_two_flat_colours() {
     let maps = maps::maps(&head().1, 256);
     let groups = &maps.iter().find(|m| m.0 == "groups.png").unwrap().1;
     let mut seen = [0, 0];
-    for texel in groups.texels().chunks(3) {
+    let texels: Vec<f32> = groups.texels().iter().collect();
+    for texel in texels.chunks(3) {
         match texel {
             [1.0, 0.0, 0.0] => seen[0] += 1,
             [0.0, 0.0, 1.0] => seen[1] += 1,

@@ -180,7 +180,7 @@ fn images() -> Images {
     let mut add = |name: &str, channels, f: &dyn Fn(usize, usize, usize) -> f32| {
         let size = 64;
         let texel = |i: usize| f(i / channels % size, i / channels / size, i % channels);
-        let texels = (0..size * size * channels).map(texel).collect();
+        let texels: Vec<f32> = (0..size * size * channels).map(texel).collect();
         let map = ImageMap::new(size as u32, size as u32, channels as u32, texels, false);
         images.insert(PathBuf::from(name), Arc::new(map.unwrap()));
     };

@@ -13,7 +13,7 @@ const EVEN: Density = Density {
 /// From 0.1 to 1 along u, without steps that distances could not be scaled across.
 fn slope() -> ImageMap {
     let texels = (0..64 * 64).map(|i| 0.1 + 0.9 * (i % 64) as f32 / 63.0);
-    ImageMap::new(64, 64, 1, texels.collect(), false).unwrap()
+    ImageMap::new(64, 64, 1, texels.collect::<Vec<f32>>(), false).unwrap()
 }
 
 fn by(map: &ImageMap) -> Density<'_> {
@@ -207,7 +207,14 @@ fn counts_follow_what_a_rough_map_means() {
         (true, _) => 1.96,
         (false, _) => 1.0,
     };
-    let map = ImageMap::new(256, 256, 1, (0..256 * 256).map(texel).collect(), false).unwrap();
+    let map = ImageMap::new(
+        256,
+        256,
+        1,
+        (0..256 * 256).map(texel).collect::<Vec<f32>>(),
+        false,
+    )
+    .unwrap();
     let mesh = sheet(16);
     let sampler = RootSampler::new(&mesh, &by(&map), 0).unwrap();
     let plain = (0..1 << 16)
@@ -229,7 +236,7 @@ fn counts_follow_what_a_rough_map_means() {
 fn nothing_grows_where_the_density_is_zero() {
     let mesh = sheet(8);
     let texels = (0..64 * 64).map(|i| if i % 64 < 32 { 0.0 } else { 1.0 });
-    let map = ImageMap::new(64, 64, 1, texels.collect(), false).unwrap();
+    let map = ImageMap::new(64, 64, 1, texels.collect::<Vec<f32>>(), false).unwrap();
     for root in made(&mesh, &by(&map), 5000, 0) {
         assert!(mesh.uv(&root).x > 0.48);
     }

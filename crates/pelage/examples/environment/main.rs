@@ -181,6 +181,6 @@ fn made_sky() -> Result<ImageMap, Box<dyn Error>> {
         let in_sun = direction.dot(sun) > libm::cos(0.5f64.to_radians());
         sky + if in_sun { 1e6 } else { 0.0 }
     };
-    let texels = (0..width * height).map(|i| texel(i) as f32).collect();
+    let texels: Vec<f32> = (0..width * height).map(|i| texel(i) as f32).collect();
     Ok(ImageMap::new(width, height, 1, texels, false)?)
 }

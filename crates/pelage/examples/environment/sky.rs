@@ -53,7 +53,8 @@ impl Sky {
     /// The same with texels in the order that `rank` gives their column and row.
     pub fn ordered(image: &ImageMap, rank: impl Fn(usize, usize) -> usize) -> Option<Self> {
         let [width, height] = [image.width(), image.height()].map(|n| n as usize);
-        let texels = image.texels().chunks_exact(image.channels() as usize);
+        let numbers: Vec<f32> = image.texels().iter().collect();
+        let texels = numbers.chunks_exact(image.channels() as usize);
         let luminance: Vec<f64> = texels.map(luminance).collect();
         let mut lit: Vec<u32> = (0..luminance.len() as u32)
             .filter(|&texel| luminance[texel as usize] > 0.0)
@@ -232,7 +233,7 @@ mod tests {
             (x, y) if (x / 5 + y / 3) % 4 == 0 => 0.0,
             (x, y) => 0.1 + (hash((y << 8 | x) as u64) >> 40) as f32 / (1 << 24) as f32,
         };
-        let texels = (0..48 * 24).map(texel).collect();
+        let texels: Vec<f32> = (0..48 * 24).map(texel).collect();
         Sky::new(&ImageMap::new(48, 24, 1, texels, false).unwrap()).unwrap()
     }
 

@@ -49,7 +49,7 @@ pub fn map(name: &'static str, size: u32) -> Map {
             _ => 1.0,
         }
     };
-    let texels = (0..size * size)
+    let texels: Vec<f32> = (0..size * size)
         .map(|i| texel(i % size, i / size) as f32)
         .collect();
     // As many finite texels as the size says.

@@ -167,7 +167,7 @@ impl<'a> Rejection<'a> {
             map,
             // Areas are positive, and their sum is that of a small surface.
             areas: Distribution::new(&areas).expect("areas"),
-            brightest: map.image.texels().iter().copied().fold(0.0, f32::max),
+            brightest: map.image.texels().iter().fold(0.0, f32::max),
         }
     }
 

@@ -43,7 +43,7 @@ fn sky_weights(map: &Map) -> Vec<f64> {
     let (width, height) = (map.image.width() as usize, map.image.height() as f64);
     let texels = map.image.texels().iter().enumerate();
     texels
-        .map(|(i, &light)| {
+        .map(|(i, light)| {
             let angle = ((i / width) as f64 + 0.5) / height * std::f64::consts::PI;
             light.max(1e-6) as f64 * libm::sin(angle)
         })

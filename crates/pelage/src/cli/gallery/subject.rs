@@ -136,7 +136,8 @@ fn map(name: &str) -> ImageMap {
     };
     let texels = (0..MAP_SIZE * MAP_SIZE).flat_map(|i| texel(i % MAP_SIZE, i / MAP_SIZE));
     // As many finite texels as the size says.
-    ImageMap::new(MAP_SIZE, MAP_SIZE, 3, texels.collect(), true).expect("a map is a map")
+    ImageMap::new(MAP_SIZE, MAP_SIZE, 3, texels.collect::<Vec<f32>>(), true)
+        .expect("a map is a map")
 }
 
 /// From where `subject` is seen, the same in all pictures.
