@@ -41,6 +41,7 @@ mod catmull_rom;
 mod error;
 mod frame;
 mod helicity;
+mod many;
 mod measure;
 mod ordered;
 pub mod polygon;
