@@ -40,20 +40,28 @@ fn synthesis() {
                 black_box(&mut points);
             }
         });
-        rate(&format!("{name}, one by one"), curves.len() * vertices, || {
-            for curve in &curves {
-                black_box(black_box(curve).points());
-            }
-        });
-        let placed = Placed::new(&curves[0].segments);
-        rate(&format!("{name}, one shape placed"), points.len() * 10, || {
-            for _ in 0..10 {
-                for (curve, points) in curves.iter().zip(points.chunks_mut(vertices)) {
-                    placed.place(curve.start, curve.frame, points);
+        rate(
+            &format!("{name}, one by one"),
+            curves.len() * vertices,
+            || {
+                for curve in &curves {
+                    black_box(black_box(curve).points());
                 }
-                black_box(&mut points);
-            }
-        });
+            },
+        );
+        let placed = Placed::new(&curves[0].segments);
+        rate(
+            &format!("{name}, one shape placed"),
+            points.len() * 10,
+            || {
+                for _ in 0..10 {
+                    for (curve, points) in curves.iter().zip(points.chunks_mut(vertices)) {
+                        placed.place(curve.start, curve.frame, points);
+                    }
+                    black_box(&mut points);
+                }
+            },
+        );
     }
 }
 

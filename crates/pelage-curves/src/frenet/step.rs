@@ -75,6 +75,25 @@ impl Step {
     pub fn shift(&self, frame: &Frame) -> DVec3 {
         frame.vector(self.shift)
     }
+
+    /// How far a curve of length 1 goes whose basis turns evenly from one to another, the
+    /// short way; of a half turn, whose axis is not known, by bending.
+    pub(super) fn turning(from: &Frame, to: &Frame) -> DVec3 {
+        let rows = |f: &Frame| [f.tangent, f.normal, f.binormal];
+        let pairs = || rows(from).into_iter().zip(rows(to));
+        let axis: DVec3 = pairs().map(|(a, b)| a.cross(b)).sum();
+        let cosines: f64 = pairs().map(|(a, b)| a.dot(b)).sum();
+        // Twice the sine and the cosine of the angle.
+        let (sine, cosine) = (axis.length(), cosines - 1.0);
+        let axis = match (sine > 1e-12, cosine < 0.0) {
+            (true, _) => axis * (libm::atan2(sine, cosine) / sine),
+            (false, true) => from.binormal * std::f64::consts::PI,
+            (false, false) => axis * 0.5,
+        };
+        let Series { versine, lag, .. } = Series::at(axis.length_squared());
+        let across = axis.cross(from.tangent);
+        from.tangent + across * versine + axis.cross(across) * lag
+    }
 }
 
 /// Functions of the angle x of a step that are even, smooth and of order 1.
