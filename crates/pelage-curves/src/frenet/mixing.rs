@@ -49,6 +49,12 @@ impl Ordered {
             lengths: guide.segments.iter().map(|s| s.length).collect(),
         }
     }
+
+    /// U at the ends of the segments: the bases of the guide if it started with
+    /// [`Frame::IDENTITY`].
+    pub fn bases(&self) -> &[Frame] {
+        &self.bases
+    }
 }
 
 /// Means shorter than this, of units, have no direction.
@@ -113,15 +119,19 @@ pub fn mix_bases(
 }
 
 /// The strand from `start` that `guides` share by their weights, by a mean of the integrals
-/// of their bases (option 3): its points.
+/// of their bases (option 3): its points, and how many times the mean was stretched to them.
 ///
 /// The polygon through them is as long as the mean of those of the guides. Where the paths
-/// cancel altogether it goes straight on, along the mean of the first tangents.
+/// cancel altogether it goes straight on, along the mean of the first tangents, and is
+/// stretched infinitely.
 ///
 /// # Errors
 ///
 /// As [`mix_bases`].
-pub fn mix_integrals(guides: &[(&Ordered, f64)], start: DVec3) -> Result<Vec<DVec3>, FrenetError> {
+pub fn mix_integrals(
+    guides: &[(&Ordered, f64)],
+    start: DVec3,
+) -> Result<(Vec<DVec3>, f64), FrenetError> {
     let (shares, first) = shares(guides)?;
     let count = guides[0].0.points.len();
     let mean: Vec<DVec3> = (0..count)
@@ -130,13 +140,15 @@ pub fn mix_integrals(guides: &[(&Ordered, f64)], start: DVec3) -> Result<Vec<DVe
     let wanted: f64 = shares.iter().map(|(g, w)| polygon(&g.points) * w).sum();
     let found = polygon(&mean);
     if found > CANCELLED * wanted {
-        let place = |&p| start + first.vector(p * (wanted / found));
-        return Ok(mean.iter().map(place).collect());
+        let stretch = wanted / found;
+        let place = |&p| start + first.vector(p * stretch);
+        return Ok((mean.iter().map(place).collect(), stretch));
     }
+    // Guides without length have nothing to cancel.
+    let stretch = if wanted > 0.0 { f64::INFINITY } else { 1.0 };
     let part = |i: usize| wanted * i as f64 / (count - 1).max(1) as f64;
-    Ok((0..count)
-        .map(|i| start + first.tangent * part(i))
-        .collect())
+    let points = (0..count).map(|i| start + first.tangent * part(i));
+    Ok((points.collect(), stretch))
 }
 
 /// Guides, each with its part of the whole.

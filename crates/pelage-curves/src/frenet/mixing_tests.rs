@@ -57,7 +57,9 @@ proptest! {
         let shares = [(&one, 0.5), (&one, 3.0), (&one, 0.0)];
         let (by_bases, frames) = mix_bases(&shares, DVec3::ZERO).unwrap();
         prop_assert!(farthest(&by_bases, &own.points()) < 1e-12);
-        prop_assert!(farthest(&mix_integrals(&shares, DVec3::ZERO).unwrap(), &own.points()) < 1e-12);
+        let (by_integrals, stretch) = mix_integrals(&shares, DVec3::ZERO).unwrap();
+        prop_assert!(farthest(&by_integrals, &own.points()) < 1e-12);
+        prop_assert!((stretch - 1.0).abs() < 1e-12);
         for (found, exact) in frames.iter().zip(own.frames()) {
             prop_assert!(found.normal.distance(exact.normal) < 1e-12);
         }
@@ -94,7 +96,8 @@ proptest! {
         let shares: Vec<(&Ordered, f64)> = ready.iter().map(|(g, w)| (g, *w)).collect();
         let whole: f64 = guides.iter().map(|(_, w)| w).sum();
         let wanted: f64 = guides.iter().map(|(g, w)| polygon(&g.points()) * w / whole).sum();
-        let points = mix_integrals(&shares, DVec3::ONE).unwrap();
+        let (points, stretch) = mix_integrals(&shares, DVec3::ONE).unwrap();
+        prop_assert!(stretch > 1.0 - 1e-12);
         prop_assert!((polygon(&points) - wanted).abs() < 1e-9 * (1.0 + wanted));
     }
 }
@@ -121,12 +124,9 @@ fn guides_that_cancel_give_a_strand_all_the_same() {
     for pair in [turned, apart] {
         let shares = pair.each_ref().map(|guide| (guide, 1.0));
         let (points, frames) = mix_bases(&shares, DVec3::ZERO).unwrap();
-        assert!(
-            points
-                .iter()
-                .chain(&mix_integrals(&shares, DVec3::ZERO).unwrap())
-                .all(|p| p.is_finite())
-        );
+        let (straight, stretch) = mix_integrals(&shares, DVec3::ZERO).unwrap();
+        assert!(stretch > 1.0 - 1e-12);
+        assert!(points.iter().chain(&straight).all(|p| p.is_finite()));
         assert!(
             frames
                 .iter()

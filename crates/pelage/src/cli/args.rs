@@ -476,7 +476,8 @@ ones that Maya writes into scenes.";
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  pelage bench sampling\n  \
     pelage bench sampling -o results --json results/sampling.json\n  \
-    pelage bench generation -o results")]
+    pelage bench generation -o results\n  \
+    pelage bench curves -o results")]
 pub struct BenchArgs {
     /// What to measure.
     #[arg(value_enum)]
@@ -500,6 +501,9 @@ pub enum Bench {
     /// Growing hairs: seconds and cost by stage, with everything made and with what
     /// was taken of the rest pose kept.
     Generation,
+    /// Space curves: rates, errors of steps along them, and ways to mix curls. Compares
+    /// with the packages of the Python that PELAGE_PYTHON names.
+    Curves,
 }
 
 #[cfg(test)]
