@@ -128,7 +128,7 @@ pub struct TubeArgs {
     /// A file of curves: USD, .npz, .hair or OBJ polylines.
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
-    /// The mesh: .obj, .ply, .glb or .usda.
+    /// The mesh: .obj, .ply, .glb, .usda or .usdc.
     #[arg(long, short, value_hint = ValueHint::FilePath)]
     pub output: PathBuf,
     /// Radius at the start of each curve. Left out, half of the file's widths.
