@@ -26,7 +26,9 @@ mod relax;
 mod scatter;
 mod sdf;
 mod sheet;
+mod tree;
 mod untangle;
+mod usda;
 
 pub use example::{Example, example, names};
 pub use files::write;

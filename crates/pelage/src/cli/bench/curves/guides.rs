@@ -291,7 +291,7 @@ fn off(rows: [DVec3; 3]) -> f64 {
 /// Three guides whose phases differ, and what lies evenly between them, by each way.
 pub fn kept() -> Result<String> {
     let case = Case {
-        guides: [0.0, 0.25, 0.6].map(|phase| curl(phase, TURNS)).into(),
+        guides: [0.0, 0.2, 0.5].map(|phase| curl(phase, TURNS)).into(),
         weights: [1.0 / 3.0; SHARED],
     };
     let all = [Ready::new(&case)];
