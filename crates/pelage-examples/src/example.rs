@@ -1,6 +1,6 @@
 //! What an example is, and the list of them.
 
-use crate::{animal, ball, grass, head, tree};
+use crate::{animal, ball, cyclone, grass, head, tree};
 use pelage_strands::StrandBuffer;
 use pelage_surface::{ImageMap, PolygonMesh};
 
@@ -28,7 +28,7 @@ pub struct Example {
 
 /// The examples there are, simplest first.
 pub fn names() -> &'static [&'static str] {
-    &["ball", "grass", "tree", "head", "animal"]
+    &["ball", "cyclone", "grass", "tree", "head", "animal"]
 }
 
 /// Makes the example called `name`; `None` where there is none of that name.
@@ -44,6 +44,7 @@ pub fn names() -> &'static [&'static str] {
 pub fn example(name: &str) -> Option<Example> {
     match name {
         "ball" => Some(ball::example()),
+        "cyclone" => Some(cyclone::example()),
         "grass" => Some(grass::example()),
         "tree" => Some(tree::example()),
         "head" => Some(head::example(&head::Detail::FULL)),

@@ -7,6 +7,7 @@
 mod animal;
 mod ball;
 mod charts;
+mod cyclone;
 mod example;
 mod files;
 mod flatten;

@@ -38,7 +38,7 @@ struct Habit {
 const HABITS: [Habit; LEVELS] = [
     Habit {
         steps: 16,
-        children: 15,
+        children: 18,
         bare: 0.28,
         length: 0.62,
         radius: 0.62,
@@ -153,7 +153,8 @@ fn branch(
     }
     if level == 0 {
         // The trunk spreads where it leaves the ground.
-        radii[0] *= 1.6;
+        radii[0] *= 1.5;
+        radii[1] *= 1.1;
     }
     Branch {
         level,
@@ -169,7 +170,7 @@ mod tests {
     #[test]
     fn branches_start_inside_those_they_leave_and_are_thinner() {
         let all = grow();
-        assert_eq!(all.len(), 1 + 15 + 15 * 9 + 15 * 9 * 6);
+        assert_eq!(all.len(), 1 + 18 + 18 * 9 + 18 * 9 * 6);
         for level in 1..LEVELS {
             for branch in all.iter().filter(|b| b.level == level) {
                 let inside = |parent: &&Branch| {

@@ -15,6 +15,9 @@ const DETAIL: f64 = 0.15;
 /// Most rings of a branch.
 const MOST_RINGS: usize = 1000;
 
+/// Part of a level's place in the map that is left free, so that levels do not run together.
+const EDGE: f32 = 0.06;
+
 /// A strand for each branch.
 pub fn curves(branches: &[Branch]) -> StrandBuffer {
     let mut out = StrandBuffer::new();
@@ -41,7 +44,7 @@ pub fn mesh(branches: &[Branch]) -> PolygonMesh {
             mesh.corner_vertices.push(first + corner);
             mesh.corner_normals.push(tube.normals[i].to_array());
             let [u, v] = tube.uvs[i].to_array();
-            let across = (branch.level as f32 + u.clamp(0.02, 0.98)) / LEVELS as f32;
+            let across = (branch.level as f32 + u.clamp(EDGE, 1.0 - EDGE)) / LEVELS as f32;
             mesh.corner_uvs.push([across, v.clamp(0.0, 1.0)]);
         }
         mesh.face_sizes.extend(tube.triangles.iter().map(|_| 3));
@@ -58,7 +61,12 @@ fn tube(branch: &Branch) -> TubeMesh {
                 angle: DETAIL,
                 most: MOST_RINGS,
             },
-            caps: Caps::Round(2),
+            // The trunk stands on the ground.
+            caps: if branch.level == 0 {
+                Caps::Flat
+            } else {
+                Caps::Round(2)
+            },
             ..Tube::default()
         };
         let last = branch.radii.len() - 1;

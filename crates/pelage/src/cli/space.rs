@@ -39,6 +39,7 @@ pub fn picture(panels: &[Panel], columns: usize, view: &View) -> String {
         .iter()
         .map(Bounds::scale)
         .fold(f64::INFINITY, f64::min);
+    let scale = if scale.is_finite() { scale } else { 1.0 };
     let columns = columns.clamp(1, panels.len().max(1));
     let [width, height] = [
         PANEL[0] * columns as f64,
@@ -113,7 +114,8 @@ impl Bounds {
     /// The largest scale at which they fit.
     fn scale(&self) -> f64 {
         let room = [PANEL[0], PANEL[1] - TITLE].map(|side| side - 2.0 * MARGIN);
-        let fit = |i: usize| room[i] / (self.high[i] - self.low[i]).max(f64::MIN_POSITIVE);
+        // A point fits at any scale.
+        let fit = |i: usize| room[i] / (self.high[i] - self.low[i]).max(0.0);
         fit(0).min(fit(1))
     }
 

@@ -362,7 +362,7 @@ fn mistakes_are_answered_in_words() {
 
 #[test]
 fn every_example_grows_sound_hair_and_shows_it() {
-    for name in ["ball", "head", "grass", "tree"] {
+    for name in ["ball", "cyclone", "head", "grass", "tree"] {
         let folder = Folder::new();
         pelage(&["init", &folder.path(name), "--example", name]);
         let recipe = folder.path(&format!("{name}/groom.toml"));
