@@ -102,11 +102,11 @@ pub struct AnalyzeArgs {
     /// A file of curves: USD, .npz, .hair or OBJ polylines.
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
-    /// Folder for the report: report.md, statistics.json and plots; it is made where it is
-    /// missing.
+    /// Folder for the report: report.md, statistics.json, plots and pictures; it is made where
+    /// it is missing.
     #[arg(long, short, value_hint = ValueHint::DirPath)]
     pub output: PathBuf,
-    /// The curve to plot by itself, counted from 0. Left out, the one that bends as much as
+    /// The curve to plot and to draw frames of, counted from 0. Left out, the one that bends as much as
     /// half of them.
     #[arg(long, value_name = "N")]
     pub strand: Option<usize>,
@@ -121,7 +121,7 @@ pub struct AnalyzeArgs {
 /// `pelage tube`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  pelage tube branches.usda -o tree.glb --radius 0.1 --tip-radius 0.01\n  \
+    after_help = "Examples:\n  pelage tube branches.usda -o tree.usdc --radius 0.1 --tip-radius 0.01\n  \
     pelage tube hair.npz -o hair.ply --sides 6 --caps round"
 )]
 pub struct TubeArgs {

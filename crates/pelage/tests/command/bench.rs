@@ -91,7 +91,7 @@ fn measuring_curves_writes_the_page_the_pictures_and_the_data() {
     let printed = pelage(&[
         "bench", "curves", "--quick", "-o", &results, "--json", &data,
     ]);
-    for picture in ["curves-errors.svg", "curves-kept.svg"] {
+    for picture in ["curves-errors.svg", "curves-kept.svg", "curves-frames.svg"] {
         let bytes = folder.bytes(&format!("results/{picture}"));
         assert!(bytes.starts_with(b"<svg"), "{picture}");
     }

@@ -164,7 +164,7 @@ fn analyzing_helices_finds_their_curvature_torsion_and_length() {
         "analyze", &curves, "-o", &report, "--strand", "0", "--steps", "200",
     ]);
     assert!(said.contains("helicity"), "{said}");
-    for name in ["curvature.svg", "torsion.svg", "strand.svg"] {
+    for name in ["curvature.svg", "torsion.svg", "strand.svg", "frames.svg"] {
         assert!(
             folder.bytes(&format!("report/{name}")).starts_with(b"<svg"),
             "{name}"

@@ -1,6 +1,6 @@
 //! `pelage analyze`: how curves bend.
 
-mod frames;
+pub mod frames;
 mod measure;
 mod report;
 

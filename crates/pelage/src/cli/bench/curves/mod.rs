@@ -6,11 +6,13 @@ mod peers;
 mod rates;
 
 use super::{Findings, machine};
+use crate::cli::analyze::frames::picture;
 use crate::cli::files::json;
 use crate::cli::plot::{Axes, Line, logarithmic};
 use crate::cli::progress::Bar;
 use crate::cli::say::Say;
 use anyhow::Result;
+use pelage::curves::{Chain, DVec3};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -102,6 +104,7 @@ impl Results {
                 ("curves.md", self.page(&tables)),
                 ("curves-errors.svg", self.plot()?),
                 ("curves-kept.svg", guides::kept()?),
+                ("curves-frames.svg", frames()?),
             ],
             tables,
         })
@@ -114,7 +117,11 @@ impl Results {
             "# Curves\n\nMade by `pelage bench curves -o docs/results --json \
             docs/results/curves.json`, version {version}, on {machine}.\n\
             {PREFACE}\n{tables}\n![Errors](curves-errors.svg)\n\n\
-            ![Three curls of other phases, mixed](curves-kept.svg)\n"
+            ![Three curls of other phases, mixed](curves-kept.svg)\n\n## Frames\n\n\
+            An S in a plane that goes on in space, with its normals by the rules of document \
+            003 and by double reflection, as `pelage analyze` draws them for any curve: Frenet's \
+            jump at inflections, those of an up-axis where the curve goes straight up.\n\n\
+            ![Frames by four rules](curves-frames.svg)\n"
         )
     }
 
@@ -225,4 +232,20 @@ impl Results {
         ];
         logarithmic(&axes, &lines)
     }
+}
+
+/// The frames of a curve that has what each rule fails at.
+fn frames() -> Result<String> {
+    let point = |i: usize| {
+        let t = i as f64 / 59.0;
+        let turn = t * std::f64::consts::TAU;
+        let aside = if t > 0.5 {
+            0.35 * libm::sin(3.0 * turn)
+        } else {
+            0.0
+        };
+        DVec3::new(0.6 * libm::sin(turn), 3.0 * t, aside)
+    };
+    let points: Vec<DVec3> = (0..60).map(point).collect();
+    picture(&Chain::catmull_rom(&points, 0.5)?)
 }
