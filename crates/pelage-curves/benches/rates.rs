@@ -1,6 +1,6 @@
 //! Rates of frames, NURBS and tubes on one core: `cargo bench -p pelage-curves`.
 
-use pelage_curves::frenet::{Measure, Sample};
+use pelage_curves::frenet::{Apparatus, Frame, Measure, Placed, Sample, Segment};
 use pelage_curves::tube::{Rings, Section, Tube};
 use pelage_curves::{Chain, DVec3, FrameScratch, Framing, Jet, Nurbs, Vec3, untwisted_normals};
 use std::hint::black_box;
@@ -10,6 +10,7 @@ use std::time::Instant;
 const ROUNDS: usize = 15;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    synthesis();
     frames();
     nurbs()?;
     tubes()?;
@@ -25,6 +26,58 @@ fn rate(name: &str, items: usize, mut work: impl FnMut()) {
         best = best.min(started.elapsed().as_secs_f64());
     }
     println!("{name:<44} {:>7.1} M/s", items as f64 / best / 1e6);
+}
+
+/// Curls that differ in everything, and one curl at many roots.
+fn synthesis() {
+    for vertices in [8, 32, 1000] {
+        let curves: Vec<Apparatus> = (0..32_000 / vertices).map(|i| curl(i, vertices)).collect();
+        let mut points = Vec::new();
+        let name = format!("synthesis, {vertices} vertices a curve");
+        rate(&name, curves.len() * vertices * 10, || {
+            for _ in 0..10 {
+                Apparatus::points_of_many(black_box(&curves), &mut points);
+                black_box(&mut points);
+            }
+        });
+        rate(
+            &format!("{name}, one by one"),
+            curves.len() * vertices,
+            || {
+                for curve in &curves {
+                    black_box(black_box(curve).points());
+                }
+            },
+        );
+        let placed = Placed::new(&curves[0].segments);
+        rate(
+            &format!("{name}, one shape placed"),
+            points.len() * 10,
+            || {
+                for _ in 0..10 {
+                    for (curve, points) in curves.iter().zip(points.chunks_mut(vertices)) {
+                        placed.place(curve.start, curve.frame, points);
+                    }
+                    black_box(&mut points);
+                }
+            },
+        );
+    }
+}
+
+/// A curl whose curvature and torsion vary.
+fn curl(i: usize, vertices: usize) -> Apparatus {
+    let at = |j: usize| (i * 7919 + j * 104_729) as f64;
+    let segment = |j: usize| Segment {
+        length: 0.1,
+        curvature: 4.0 + libm::sin(at(j)),
+        torsion: libm::cos(at(j)),
+    };
+    Apparatus {
+        start: DVec3::X * i as f64,
+        frame: Frame::new(DVec3::new(1.0, libm::sin(at(0)), 0.0), DVec3::Z),
+        segments: (1..vertices).map(segment).collect(),
+    }
 }
 
 /// Curls, whose frames do turn.

@@ -8,7 +8,7 @@
 //! whatever the processor's vectors.
 
 use crate::catmull_rom;
-use crate::frames::{perpendicular_part, reflect_twice};
+use crate::frames::{double_reflection, perpendicular_part, reflect_twice};
 use fearless_simd::{Level, dispatch};
 use glam::{Mat4, Vec3, Vec4};
 use std::ops::Range;
@@ -65,7 +65,13 @@ impl Row {
 pub struct FrameScratch {
     points: Vec<Row>,
     normals: Vec<Row>,
+    /// Of a curve that is walked alone.
+    tangents: Vec<Vec3>,
 }
+
+/// Where side by side this many times the vertices there are would be walked, as beside one
+/// very long curve, curves are walked alone: about as fast, without the memory.
+const MOST_IDLE: usize = 4;
 
 /// Writes a unit normal for each vertex of many Catmull-Rom curves, such that their
 /// frames turn about them as little as possible: [`catmull_rom::tangents`] and
@@ -100,14 +106,29 @@ pub fn untwisted_normals(
             let ranges: [Range<usize>; LANES] = std::array::from_fn(|lane| {
                 offsets[curve(lane)] as usize..offsets[curve(lane) + 1] as usize
             });
+            let own = &ranges[..LANES.min(curves - start)];
+            let longest = own.iter().map(|range| range.len()).max().unwrap_or(0);
+            let all: usize = own.iter().map(|range| range.len()).sum();
+            if longest.saturating_mul(LANES) > MOST_IDLE * all {
+                for (lane, range) in own.iter().enumerate() {
+                    scratch.alone(&points[range.clone()], first(start + lane), &mut normals[range.clone()]);
+                }
+                continue;
+            }
             scratch.load(points, &ranges);
             scratch.walk(Row::from_fn(|lane| first(curve(lane))));
-            scratch.store(&ranges[..LANES.min(curves - start)], normals);
+            scratch.store(own, normals);
         }
     });
 }
 
 impl FrameScratch {
+    fn alone(&mut self, points: &[Vec3], first: Vec3, normals: &mut [Vec3]) {
+        self.tangents.resize(points.len(), Vec3::ZERO);
+        catmull_rom::tangents(points, &mut self.tangents);
+        double_reflection(points, &self.tangents, first, normals);
+    }
+
     /// Puts curves side by side. Shorter ones repeat their last vertex, which leaves the
     /// frames before it as they are: the ends of a curve are duplicated anyway.
     #[inline(always)]
@@ -166,7 +187,6 @@ impl FrameScratch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::double_reflection;
     use proptest::prelude::*;
 
     /// Small integers: vertices that coincide and tangents that oppose are common.
@@ -197,5 +217,19 @@ mod tests {
                 prop_assert_eq!(&normals[range.clone()], &alone[range]);
             }
         }
+    }
+    #[test]
+    fn a_curve_of_ten_million_vertices_has_frames_in_little_memory() {
+        let at = |i: usize| {
+            let a = i as f32 * 0.01;
+            Vec3::new(libm::cosf(a), libm::sinf(a), a)
+        };
+        let points: Vec<Vec3> = (0..10_000_000).map(at).collect();
+        let offsets = [0, 5, 10_000_000];
+        let mut normals = vec![Vec3::ZERO; points.len()];
+        let scratch = &mut FrameScratch::default();
+        untwisted_normals(&points, &offsets, |_| Vec3::Z, scratch, &mut normals);
+        assert!(scratch.points.is_empty());
+        assert!(normals.iter().all(|n| (n.length() - 1.0).abs() < 1e-5));
     }
 }

@@ -1,6 +1,6 @@
 //! What an example is, and the list of them.
 
-use crate::{animal, ball, grass, head};
+use crate::{animal, ball, cyclone, grass, head, tree};
 use pelage_strands::StrandBuffer;
 use pelage_surface::{ImageMap, PolygonMesh};
 
@@ -22,11 +22,13 @@ pub struct Example {
     pub maps: Vec<(&'static str, ImageMap)>,
     /// File name and curves of the guides, where the recipe does not grow its own.
     pub guides: Option<(&'static str, StrandBuffer)>,
+    /// File name and curves, with widths, that the mesh was swept along.
+    pub curves: Option<(&'static str, StrandBuffer)>,
 }
 
 /// The examples there are, simplest first.
 pub fn names() -> &'static [&'static str] {
-    &["ball", "grass", "head", "animal"]
+    &["ball", "cyclone", "grass", "tree", "head", "animal"]
 }
 
 /// Makes the example called `name`; `None` where there is none of that name.
@@ -42,7 +44,9 @@ pub fn names() -> &'static [&'static str] {
 pub fn example(name: &str) -> Option<Example> {
     match name {
         "ball" => Some(ball::example()),
+        "cyclone" => Some(cyclone::example()),
         "grass" => Some(grass::example()),
+        "tree" => Some(tree::example()),
         "head" => Some(head::example(&head::Detail::FULL)),
         "animal" => Some(animal::example(&animal::Detail::FULL)),
         _ => None,

@@ -2,11 +2,12 @@
 
 use crate::example::Example;
 use crate::obj::{curves_text, mesh_text};
+use crate::usda;
 use pelage_surface::ImageMap;
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes `groom.toml`, the mesh, the maps and the guides into `folder`, which is
+/// Writes `groom.toml`, the mesh, the maps and the curves into `folder`, which is
 /// made where it is missing; gives the paths written, the recipe first.
 ///
 /// Each file is written beside its place and renamed into it, so that a reader
@@ -28,6 +29,9 @@ pub fn write(example: &Example, folder: &Path) -> io::Result<Vec<PathBuf>> {
     }
     if let Some((name, guides)) = &example.guides {
         put(name, curves_text(guides).as_bytes())?;
+    }
+    if let Some((name, curves)) = &example.curves {
+        put(name, usda::curves_text(curves).as_bytes())?;
     }
     put("groom.toml", example.recipe.as_bytes())?;
     written.rotate_right(1);

@@ -7,6 +7,7 @@
 mod animal;
 mod ball;
 mod charts;
+mod cyclone;
 mod example;
 mod files;
 mod flatten;
@@ -26,7 +27,9 @@ mod relax;
 mod scatter;
 mod sdf;
 mod sheet;
+mod tree;
 mod untangle;
+mod usda;
 
 pub use example::{Example, example, names};
 pub use files::write;

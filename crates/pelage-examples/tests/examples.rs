@@ -53,6 +53,7 @@ fn examples_are_the_same_every_time() {
         assert_eq!(one.mesh, other.mesh);
         assert_eq!(one.maps, other.maps);
         assert_eq!(one.guides, other.guides);
+        assert_eq!(one.curves, other.curves);
     }
 }
 

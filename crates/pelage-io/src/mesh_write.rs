@@ -1,9 +1,9 @@
-//! Writing triangle meshes: OBJ, PLY, GLB and USD text, whole or not at all.
+//! Writing triangle meshes: OBJ, PLY, GLB and USD, whole or not at all.
 
 mod glb;
 mod text;
 
-use crate::AtomicFile;
+use crate::{AtomicFile, usdc};
 use pelage_curves::{Vec2, Vec3};
 use pelage_strands::SinkError;
 use std::io::{self, BufWriter, Write};
@@ -23,7 +23,7 @@ pub struct Triangles<'a> {
 }
 
 /// The extensions of [`write_mesh`].
-pub const MESH_EXTENSIONS: [&str; 4] = ["obj", "ply", "glb", "usda"];
+pub const MESH_EXTENSIONS: [&str; 5] = ["obj", "ply", "glb", "usda", "usdc"];
 
 /// Writes `mesh` into the file `path`, whose extension is one of [`MESH_EXTENSIONS`]. Y is up
 /// and the unit is left open, where a format asks for them.
@@ -58,6 +58,8 @@ pub fn write_mesh(path: &Path, mesh: &Triangles) -> Result<(), SinkError> {
         "ply" => ply,
         "glb" => glb::glb,
         "usda" => text::usda,
+        // Its tables name places in the file, which it therefore keeps for itself.
+        "usdc" => return usdc::write_mesh(path, mesh).map_err(failed),
         other => {
             let known = MESH_EXTENSIONS.join(", .");
             let message = format!("meshes are not written as .{other}; there are .{known}");
@@ -73,6 +75,13 @@ pub fn write_mesh(path: &Path, mesh: &Triangles) -> Result<(), SinkError> {
 }
 
 impl Triangles<'_> {
+    /// The least and the greatest corner of the box around it.
+    pub(crate) fn extent(&self) -> [Vec3; 2] {
+        let least = self.positions.iter().copied().reduce(Vec3::min);
+        let greatest = self.positions.iter().copied().reduce(Vec3::max);
+        [least, greatest].map(Option::unwrap_or_default)
+    }
+
     /// Whether the arrays fit each other.
     fn check(&self) -> Result<(), String> {
         let count = self.positions.len();

@@ -71,14 +71,18 @@ fn other_programs_read_a_closed_solid() {
             assert mesh.is_watertight and abs(mesh.volume - 1) < 1e-6, (mesh, mesh.volume)\n";
         python("trimesh", body, &[&path]);
     }
-    let path = written(folder.path(), "usda");
-    let body = "import sys\nfrom pxr import Usd, UsdGeom\n\
-        stage = Usd.Stage.Open(sys.argv[1])\n\
-        mesh = UsdGeom.Mesh(stage.GetDefaultPrim())\n\
-        assert len(mesh.GetPointsAttr().Get()) == 12\n\
-        assert UsdGeom.Mesh.ValidateTopology(mesh.GetFaceVertexIndicesAttr().Get(),\n\
-            mesh.GetFaceVertexCountsAttr().Get(), 12)[0]\n";
-    python("pxr", body, &[&path]);
+    let [text, binary] = ["usda", "usdc"].map(|extension| written(folder.path(), extension));
+    let body = "import sys\nfrom pxr import Sdf, Usd, UsdGeom\n\
+        texts = []\n\
+        for path in sys.argv[1:]:\n\
+        \x20   stage = Usd.Stage.Open(path)\n\
+        \x20   mesh = UsdGeom.Mesh(stage.GetDefaultPrim())\n\
+        \x20   assert len(mesh.GetPointsAttr().Get()) == 12\n\
+        \x20   assert UsdGeom.Mesh.ValidateTopology(mesh.GetFaceVertexIndicesAttr().Get(),\n\
+        \x20       mesh.GetFaceVertexCountsAttr().Get(), 12)[0]\n\
+        \x20   texts.append(stage.GetRootLayer().ExportToString())\n\
+        assert texts[0] == texts[1], texts\n";
+    python("pxr", body, &[&text, &binary]);
 }
 
 #[test]

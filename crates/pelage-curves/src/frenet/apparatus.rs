@@ -16,6 +16,14 @@ pub struct Segment {
     pub torsion: f64,
 }
 
+impl Segment {
+    /// κ ds and τ ds.
+    #[inline(always)]
+    pub(super) fn angles(self) -> (f64, f64) {
+        (self.curvature * self.length, self.torsion * self.length)
+    }
+}
+
 /// A whole curve by the Fundamental Theorem of Curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Apparatus {

@@ -51,6 +51,7 @@ impl Frame {
     }
 
     /// The vector with coordinates `local` along tangent, normal and binormal.
+    #[inline(always)]
     pub fn vector(&self, local: DVec3) -> DVec3 {
         self.tangent * local.x + self.normal * local.y + self.binormal * local.z
     }

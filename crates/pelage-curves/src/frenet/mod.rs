@@ -9,6 +9,7 @@
 //! - [`Helical`] is the closed form for a constant ratio of torsion and curvature
 //!   (section 3.2), [`Placed`] the ordered exponentials that place one shape many times
 //!   (section 3.1).
+//! - [`mix_bases`] and [`mix_integrals`] make strands between guides of these (section 4.3).
 //! - [`polygon`] has the same for vertices instead of smooth curves: bends and twists of
 //!   a polygon, from which its vertices come back to rounding however coarse it is.
 //!
@@ -41,7 +42,9 @@ mod catmull_rom;
 mod error;
 mod frame;
 mod helicity;
+mod many;
 mod measure;
+mod mixing;
 mod ordered;
 pub mod polygon;
 mod step;
@@ -55,5 +58,6 @@ pub use frame::Frame;
 pub(crate) use frame::{perpendicular, unit};
 pub use helicity::Helical;
 pub use measure::{Measure, SpaceCurve};
+pub use mixing::{Ordered, mix_bases, mix_integrals};
 pub use ordered::Placed;
 pub use step::Step;

@@ -6,6 +6,7 @@
 //! orthogonal to rounding.
 
 use super::{Frame, Segment, Step};
+use fearless_simd::{Level, dispatch};
 use glam::DVec3;
 
 /// The first rows of R(s) and U(s) at the ends of segments.
@@ -48,6 +49,16 @@ impl Placed {
         self.points.iter().map(move |&p| start + frame.vector(p))
     }
 
+    /// Writes what [`points`](Self::points) gives over `points`, as far as that goes.
+    pub fn place(&self, start: DVec3, frame: Frame, points: &mut [DVec3]) {
+        dispatch!(Level::new(), simd => {
+            let _ = simd;
+            for (point, &p) in points.iter_mut().zip(&self.points) {
+                *point = start + frame.vector(p);
+            }
+        });
+    }
+
     /// Unit tangents of the curve that starts with the basis `frame`.
     pub fn tangents(&self, frame: Frame) -> impl Iterator<Item = DVec3> {
         self.tangents.iter().map(move |&t| frame.vector(t))
@@ -77,6 +88,9 @@ mod tests {
             for (p, q) in placed.points(start, frame).zip(whole.points()) {
                 prop_assert!(p.distance(q) < 1e-13);
             }
+            let mut written = vec![DVec3::NAN; placed.points.len()];
+            placed.place(start, frame, &mut written);
+            prop_assert_eq!(written, placed.points(start, frame).collect::<Vec<_>>());
             for (t, f) in placed.tangents(frame).zip(whole.frames()) {
                 prop_assert!(t.distance(f.tangent) < 1e-13);
             }

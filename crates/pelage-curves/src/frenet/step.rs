@@ -9,8 +9,9 @@
 //! σ = (ds - sin(w ds) / w) / w².
 //!
 //! All is computed of the angles κ ds and τ ds, so that nothing depends on the unit of
-//! length; γ and σ, of small differences, come from series where w ds is small. So
-//! circles and helices are exact to rounding at any step.
+//! length; γ and σ, of small differences, come from series of a quarter of the angle,
+//! doubled twice, which takes no difference of near numbers and no branch. So circles and
+//! helices are exact to rounding at any step.
 
 use super::{Frame, Segment};
 use glam::DVec3;
@@ -25,15 +26,27 @@ pub struct Step {
 }
 
 impl Step {
+    /// Squares of the angle of a step below this take no sine: up to 162 degrees.
+    pub(super) const SMALL: f64 = 8.0;
+
     /// The step along `segment`.
     pub fn new(segment: Segment) -> Self {
-        let Segment {
-            length,
-            curvature,
-            torsion,
-        } = segment;
-        let (k, t) = (curvature * length, torsion * length);
-        let Series { sine, versine, lag } = Series::at(k * k + t * t);
+        let (k, t) = segment.angles();
+        Self::with(segment, Series::at(k * k + t * t))
+    }
+
+    /// The step along a `segment` whose angle has a square below [`SMALL`](Self::SMALL),
+    /// without a branch.
+    #[inline(always)]
+    pub(super) fn small(segment: Segment) -> Self {
+        let (k, t) = segment.angles();
+        Self::with(segment, Series::doubled(k * k + t * t))
+    }
+
+    #[inline(always)]
+    fn with(segment: Segment, Series { sine, versine, lag }: Series) -> Self {
+        let (k, t) = segment.angles();
+        let length = segment.length;
         let (b, c, e) = (sine * k, versine * k * t, sine * t);
         let d = 1.0 - versine * (k * k + t * t);
         Self {
@@ -47,6 +60,7 @@ impl Step {
     }
 
     /// The basis after the step from `frame`.
+    #[inline(always)]
     pub fn frame(&self, frame: &Frame) -> Frame {
         let [tangent, normal, binormal] = self.basis.map(|row| frame.vector(row));
         Frame {
@@ -57,8 +71,28 @@ impl Step {
     }
 
     /// How far the curve goes from where its basis is `frame`.
+    #[inline(always)]
     pub fn shift(&self, frame: &Frame) -> DVec3 {
         frame.vector(self.shift)
+    }
+
+    /// How far a curve of length 1 goes whose basis turns evenly from one to another, the
+    /// short way; of a half turn, whose axis is not known, by bending.
+    pub(super) fn turning(from: &Frame, to: &Frame) -> DVec3 {
+        let rows = |f: &Frame| [f.tangent, f.normal, f.binormal];
+        let pairs = || rows(from).into_iter().zip(rows(to));
+        let axis: DVec3 = pairs().map(|(a, b)| a.cross(b)).sum();
+        let cosines: f64 = pairs().map(|(a, b)| a.dot(b)).sum();
+        // Twice the sine and the cosine of the angle.
+        let (sine, cosine) = (axis.length(), cosines - 1.0);
+        let axis = match (sine > 1e-12, cosine < 0.0) {
+            (true, _) => axis * (libm::atan2(sine, cosine) / sine),
+            (false, true) => from.binormal * std::f64::consts::PI,
+            (false, false) => axis * 0.5,
+        };
+        let Series { versine, lag, .. } = Series::at(axis.length_squared());
+        let across = axis.cross(from.tangent);
+        from.tangent + across * versine + axis.cross(across) * lag
     }
 }
 
@@ -73,19 +107,39 @@ struct Series {
 }
 
 impl Series {
-    /// Below this square of x the terms up to x^16 are exact to rounding, above it the
-    /// closed forms lose less than two digits.
-    const SMALL: f64 = 0.5;
-
     /// At the square of x.
+    #[inline(always)]
     fn at(square: f64) -> Self {
-        if square < Self::SMALL {
-            return Self {
-                sine: series(square, 1),
-                versine: series(square, 2),
-                lag: series(square, 3),
-            };
+        match square < Step::SMALL {
+            true => Self::doubled(square),
+            false => Self::closed(square),
         }
+    }
+
+    /// By series of x / 4, where the terms left out are below rounding, and twice
+    /// sin 2y = 2 sin y cos y, whose like for the others has no difference either.
+    #[inline(always)]
+    fn doubled(square: f64) -> Self {
+        let mut quarter = square / 16.0;
+        let mut part = Self {
+            sine: horner(&SINE, quarter),
+            versine: horner(&VERSINE, quarter),
+            lag: horner(&LAG, quarter),
+        };
+        for _ in 0..2 {
+            let Self { sine, versine, lag } = part;
+            part = Self {
+                sine: sine * (1.0 - versine * quarter),
+                versine: sine * sine * 0.5,
+                lag: (lag + sine * versine) * 0.25,
+            };
+            quarter *= 4.0;
+        }
+        part
+    }
+
+    /// Where the differences lose less than two digits.
+    fn closed(square: f64) -> Self {
         let x = square.sqrt();
         let (sine, half) = (libm::sin(x), libm::sin(x / 2.0));
         Self {
@@ -96,14 +150,35 @@ impl Series {
     }
 }
 
-/// Σ (-square)^n / (2n + first)! for n from 0.
-fn series(square: f64, first: u32) -> f64 {
-    let mut sum = 1.0;
-    for n in (1..=8).rev() {
-        let top = (2 * n + first) as f64;
-        sum = 1.0 - sum * square / (top * (top - 1.0));
+/// Terms of a series: enough for a square of ½.
+type Terms = [f64; 9];
+
+const SINE: Terms = terms(1);
+const VERSINE: Terms = terms(2);
+const LAG: Terms = terms(3);
+
+/// (-1)^n / (2n + first)! for n from 0.
+const fn terms(first: usize) -> Terms {
+    let mut terms = [0.0; 9];
+    let (mut factorial, mut k, mut n) = (1.0, 1, 0);
+    while n < terms.len() {
+        while k <= 2 * n + first {
+            factorial *= k as f64;
+            k += 1;
+        }
+        terms[n] = if n % 2 == 0 { 1.0 } else { -1.0 } / factorial;
+        n += 1;
     }
-    sum / [1.0, 1.0, 2.0, 6.0][first as usize]
+    terms
+}
+
+#[inline(always)]
+fn horner(terms: &Terms, x: f64) -> f64 {
+    let mut sum = terms[8];
+    for n in (0..8).rev() {
+        sum = sum * x + terms[n];
+    }
+    sum
 }
 
 #[cfg(test)]

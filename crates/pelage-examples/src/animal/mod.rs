@@ -45,6 +45,7 @@ pub fn example(detail: &Detail) -> Example {
         mesh: model.polygon_mesh(),
         maps,
         guides: Some(("guides.obj", guides)),
+        curves: None,
     }
 }
 

@@ -32,6 +32,7 @@ pub fn example() -> Example {
             ("tip_color.png", painted(|p, uv| srgb(color(p, uv)))),
         ],
         guides: None,
+        curves: None,
     }
 }
 

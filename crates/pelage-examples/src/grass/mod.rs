@@ -29,6 +29,7 @@ pub fn example() -> Example {
             ("skin.png", painted(|p| srgb(soil_color(p)))),
         ],
         guides: None,
+        curves: None,
     }
 }
 

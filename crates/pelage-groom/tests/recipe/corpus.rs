@@ -20,7 +20,7 @@ pub fn recipes(name: &str) -> Vec<(PathBuf, String)> {
 /// Name and text of the recipes of the example grooms.
 pub fn examples() -> Vec<(PathBuf, String)> {
     let root = folder().join("../../pelage-examples/src");
-    let names = ["animal", "ball", "grass", "head"];
+    let names = ["animal", "ball", "cyclone", "grass", "head", "tree"];
     let paths = names.map(|name| root.join(name).join("groom.toml"));
     let read = |path: PathBuf| (path.clone(), std::fs::read_to_string(path).unwrap());
     paths.into_iter().map(read).collect()

@@ -5,7 +5,6 @@
 //! left there, so v is turned round.
 
 use super::Triangles;
-use pelage_curves::Vec3;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -74,9 +73,7 @@ fn describe(mesh: &Triangles) -> Value {
             view
         })
         .collect();
-    let low = mesh.positions.iter().copied().reduce(Vec3::min);
-    let high = mesh.positions.iter().copied().reduce(Vec3::max);
-    let [low, high] = [low, high].map(|p| p.unwrap_or_default().to_array());
+    let [low, high] = mesh.extent().map(|p| p.to_array());
     let floats = |view: u32, kind: &str| json!({ "bufferView": view, "componentType": FLOAT, "count": count, "type": kind });
     let mut positions = floats(0, "VEC3");
     positions["min"] = json!(low);

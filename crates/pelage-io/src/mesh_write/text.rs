@@ -23,14 +23,9 @@ pub(super) fn obj(file: &mut dyn Write, mesh: &Triangles) -> io::Result<()> {
 
 /// USD text: one `Mesh` prim, not subdivided.
 pub(super) fn usda(file: &mut dyn Write, mesh: &Triangles) -> io::Result<()> {
-    let (mut low, mut high) = match mesh.positions.first() {
-        Some(&first) => (first, first),
-        None => Default::default(),
-    };
-    for &p in mesh.positions {
-        (low, high) = (low.min(p), high.max(p));
-    }
-    let extent = [low, high].map(|p| format!("({}, {}, {})", p.x, p.y, p.z));
+    let extent = mesh
+        .extent()
+        .map(|p| format!("({}, {}, {})", p.x, p.y, p.z));
     write!(
         file,
         "#usda 1.0\n(\n    defaultPrim = \"mesh\"\n    upAxis = \"Y\"\n)\n\n\

@@ -111,11 +111,21 @@ impl CrateFile {
     }
 
     /// Writes a list of tokens, given by their indices.
-    pub(super) fn tokens(&mut self, tokens: &[u32]) -> io::Result<ValueRep> {
+    fn tokens(&mut self, tokens: &[u32]) -> io::Result<ValueRep> {
         let offset = self.align()?;
         self.put_u64(tokens.len() as u64)?;
         self.put(bytemuck::cast_slice(tokens))?;
         Ok(ValueRep::at(Kind::TokenVector, offset))
+    }
+
+    /// Writes a list of names.
+    pub(super) fn names(
+        &mut self,
+        sections: &mut Sections,
+        names: &[&str],
+    ) -> io::Result<ValueRep> {
+        let tokens: Vec<u32> = names.iter().map(|name| sections.token(name)).collect();
+        self.tokens(&tokens)
     }
 
     /// Writes the times of samples.

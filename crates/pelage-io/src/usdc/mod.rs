@@ -1,4 +1,4 @@
-//! Hair as a USD crate file (`.usdc`), version 0.8.0: every OpenUSD since 2019
+//! Hair, and meshes, as a USD crate file (`.usdc`), version 0.8.0: every OpenUSD since 2019
 //! reads it.
 //!
 //! Layout, offsets from the start of the file, all numbers little-endian:
@@ -17,10 +17,13 @@
 //! The layout was learnt from files that OpenUSD wrote and from its documentation;
 //! every file of the tests is read back by OpenUSD.
 
+mod attribute;
 mod compress;
 mod crate_file;
+mod mesh;
 mod sections;
 mod value;
 mod writer;
 
+pub(crate) use mesh::write_mesh;
 pub use writer::UsdcWriter;

@@ -1,5 +1,6 @@
 //! Hair into a crate file.
 
+use super::attribute::{Value, Written};
 use super::crate_file::CrateFile;
 use super::sections::{Sections, SpecKind};
 use super::value::{Kind, ValueRep};
@@ -110,20 +111,6 @@ fn settle(
     Ok(())
 }
 
-/// An attribute whose values are in the file.
-struct Written {
-    name: &'static str,
-    kind: &'static str,
-    uniform: bool,
-    interpolation: Option<&'static str>,
-    value: Value,
-}
-
-enum Value {
-    Still(ValueRep),
-    Samples(ValueRep),
-}
-
 /// The specs and their values, once all strands are there.
 struct Layer {
     file: CrateFile,
@@ -148,7 +135,7 @@ impl Layer {
             let value = Value::Still(self.sections.token_value(token));
             self.attributes.push(Written {
                 uniform: true,
-                ..plain(name, "token", value)
+                ..Written::plain(name, "token", value)
             });
         }
         let extents: Vec<ValueRep> = extents
@@ -160,7 +147,8 @@ impl Layer {
             })
             .collect::<io::Result<_>>()?;
         let extent = self.sampled(&extents)?;
-        self.attributes.push(plain("extent", "float3[]", extent));
+        self.attributes
+            .push(Written::plain("extent", "float3[]", extent));
         for arrays in columns {
             self.gather_column(arrays, info.frames.len().max(1))?;
         }
@@ -194,7 +182,7 @@ impl Layer {
         };
         self.attributes.push(Written {
             interpolation,
-            ..plain(named.name, named.kind, value)
+            ..Written::plain(named.name, named.kind, value)
         });
         Ok(())
     }
@@ -207,7 +195,10 @@ impl Layer {
             ("specifier", def),
             ("typeName", self.sections.token_value("Xform")),
             ("kind", self.sections.token_value("component")),
-            ("primChildren", self.names(&[hair_prim::CURVES])?),
+            (
+                "primChildren",
+                self.file.names(&mut self.sections, &[hair_prim::CURVES])?,
+            ),
         ];
         let groom = self
             .sections
@@ -216,13 +207,13 @@ impl Layer {
         let curves = [
             ("specifier", def),
             ("typeName", self.sections.token_value("BasisCurves")),
-            ("properties", self.names(&names)?),
+            ("properties", self.file.names(&mut self.sections, &names)?),
         ];
         let curves = self
             .sections
             .spec(SpecKind::Prim, Some(groom), hair_prim::CURVES, &curves);
         for attribute in &self.attributes {
-            attribute_spec(&mut self.sections, curves, attribute);
+            attribute.spec(&mut self.sections, curves);
         }
         self.file.finish(&self.sections)
     }
@@ -238,42 +229,12 @@ impl Layer {
         }
         let axis = hair_prim::up_axis(info.up_axis);
         fields.push(("upAxis", self.sections.token_value(axis)));
-        fields.push(("primChildren", self.names(&[&info.name])?));
+        fields.push((
+            "primChildren",
+            self.file.names(&mut self.sections, &[&info.name])?,
+        ));
         Ok(self.sections.spec(SpecKind::Layer, None, "/", &fields))
     }
-
-    fn names(&mut self, names: &[&str]) -> io::Result<ValueRep> {
-        let tokens: Vec<u32> = names.iter().map(|name| self.sections.token(name)).collect();
-        self.file.tokens(&tokens)
-    }
-}
-
-fn plain(name: &'static str, kind: &'static str, value: Value) -> Written {
-    Written {
-        name,
-        kind,
-        uniform: false,
-        interpolation: None,
-        value,
-    }
-}
-
-fn attribute_spec(sections: &mut Sections, parent: usize, attribute: &Written) {
-    let mut fields = vec![
-        ("typeName", sections.token_value(attribute.kind)),
-        (
-            "variability",
-            ValueRep::inlined(Kind::Variability, attribute.uniform.into()),
-        ),
-    ];
-    if let Some(domain) = attribute.interpolation {
-        fields.push(("interpolation", sections.token_value(domain)));
-    }
-    fields.push(match attribute.value {
-        Value::Still(value) => ("default", value),
-        Value::Samples(value) => ("timeSamples", value),
-    });
-    sections.spec(SpecKind::Attribute, Some(parent), attribute.name, &fields);
 }
 
 fn kind_of(field: Field) -> Kind {

@@ -102,11 +102,11 @@ pub struct AnalyzeArgs {
     /// A file of curves: USD, .npz, .hair or OBJ polylines.
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
-    /// Folder for the report: report.md, statistics.json and plots; it is made where it is
-    /// missing.
+    /// Folder for the report: report.md, statistics.json, plots and pictures; it is made where
+    /// it is missing.
     #[arg(long, short, value_hint = ValueHint::DirPath)]
     pub output: PathBuf,
-    /// The curve to plot by itself, counted from 0. Left out, the one that bends as much as
+    /// The curve to plot and to draw frames of, counted from 0. Left out, the one that bends as much as
     /// half of them.
     #[arg(long, value_name = "N")]
     pub strand: Option<usize>,
@@ -121,14 +121,14 @@ pub struct AnalyzeArgs {
 /// `pelage tube`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  pelage tube branches.usda -o tree.glb --radius 0.1 --tip-radius 0.01\n  \
+    after_help = "Examples:\n  pelage tube branches.usda -o tree.usdc --radius 0.1 --tip-radius 0.01\n  \
     pelage tube hair.npz -o hair.ply --sides 6 --caps round"
 )]
 pub struct TubeArgs {
     /// A file of curves: USD, .npz, .hair or OBJ polylines.
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
-    /// The mesh: .obj, .ply, .glb or .usda.
+    /// The mesh: .obj, .ply, .glb, .usda or .usdc.
     #[arg(long, short, value_hint = ValueHint::FilePath)]
     pub output: PathBuf,
     /// Radius at the start of each curve. Left out, half of the file's widths.
@@ -476,7 +476,8 @@ ones that Maya writes into scenes.";
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  pelage bench sampling\n  \
     pelage bench sampling -o results --json results/sampling.json\n  \
-    pelage bench generation -o results")]
+    pelage bench generation -o results\n  \
+    pelage bench curves -o results")]
 pub struct BenchArgs {
     /// What to measure.
     #[arg(value_enum)]
@@ -500,6 +501,9 @@ pub enum Bench {
     /// Growing hairs: seconds and cost by stage, with everything made and with what
     /// was taken of the rest pose kept.
     Generation,
+    /// Space curves: rates, errors of steps along them, and ways to mix curls. Compares
+    /// with the packages of the Python that PELAGE_PYTHON names.
+    Curves,
 }
 
 #[cfg(test)]

@@ -27,5 +27,10 @@ pub fn run(args: &InitArgs, say: &Say) -> Result<ExitCode> {
     say.line(format_args!(
         "  pelage generate {folder}/groom.toml -o {folder}/hair.usdc --picture {folder}/hair.png"
     ));
+    if let Some((curves, _)) = &example.curves {
+        say.line(format_args!(
+            "  pelage tube {folder}/{curves} -o {folder}/swept.glb --caps round"
+        ));
+    }
     Ok(ExitCode::SUCCESS)
 }

@@ -20,6 +20,7 @@ mod plot;
 mod progress;
 mod sample;
 mod say;
+mod space;
 mod stats;
 mod tube;
 mod values;

@@ -84,6 +84,27 @@ fn measuring_generation_writes_the_page_the_chart_and_data_of_every_scene() {
     assert_eq!(scenes, expected.into());
 }
 
+#[test]
+fn measuring_curves_writes_the_page_the_pictures_and_the_data() {
+    let folder = Folder::new();
+    let (results, data) = (folder.path("results"), folder.path("data.json"));
+    let printed = pelage(&[
+        "bench", "curves", "--quick", "-o", &results, "--json", &data,
+    ]);
+    for picture in ["curves-errors.svg", "curves-kept.svg", "curves-frames.svg"] {
+        let bytes = folder.bytes(&format!("results/{picture}"));
+        assert!(bytes.starts_with(b"<svg"), "{picture}");
+    }
+    let page = String::from_utf8(folder.bytes("results/curves.md")).unwrap();
+    assert!(page.contains(printed.trim_end()), "{printed}");
+
+    let data: Value = serde_json::from_slice(&folder.bytes("data.json")).unwrap();
+    let rates = data["rates"].as_array().unwrap();
+    assert!(rates.iter().all(|row| row["rate"].as_f64().unwrap() > 0.0));
+    assert_eq!(data["errors"].as_array().unwrap().len(), 4 * 5);
+    assert_eq!(data["mixed"].as_array().unwrap().len(), 2 * 4);
+}
+
 /// What programs that read the data of generation may rely on.
 const GENERATION: [&str; 9] = [
     "scene",

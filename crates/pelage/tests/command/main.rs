@@ -164,7 +164,7 @@ fn analyzing_helices_finds_their_curvature_torsion_and_length() {
         "analyze", &curves, "-o", &report, "--strand", "0", "--steps", "200",
     ]);
     assert!(said.contains("helicity"), "{said}");
-    for name in ["curvature.svg", "torsion.svg", "strand.svg"] {
+    for name in ["curvature.svg", "torsion.svg", "strand.svg", "frames.svg"] {
         assert!(
             folder.bytes(&format!("report/{name}")).starts_with(b"<svg"),
             "{name}"
@@ -362,7 +362,7 @@ fn mistakes_are_answered_in_words() {
 
 #[test]
 fn every_example_grows_sound_hair_and_shows_it() {
-    for name in ["ball", "head", "grass"] {
+    for name in ["ball", "cyclone", "head", "grass", "tree"] {
         let folder = Folder::new();
         pelage(&["init", &folder.path(name), "--example", name]);
         let recipe = folder.path(&format!("{name}/groom.toml"));

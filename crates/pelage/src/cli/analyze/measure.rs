@@ -6,9 +6,12 @@
 
 use pelage::StrandBuffer;
 use pelage::curves::DVec3;
-use pelage::curves::frenet::{Apparatus, CatmullRom, FrenetError};
+use pelage::curves::frenet::{Apparatus, CatmullRom, Segment};
 use rayon::prelude::*;
 use serde::Serialize;
+
+/// Strands between two words of how far it is.
+const BLOCK: usize = 1 << 14;
 
 /// One curve in numbers.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -30,27 +33,41 @@ pub struct Measured {
     pub bend: f64,
 }
 
-/// The apparatus of strand `strand`.
-pub fn apparatus(
-    strands: &StrandBuffer,
-    strand: usize,
-    steps: usize,
-) -> Result<Apparatus, FrenetError> {
-    let points = strands.strand_points(strand);
-    let points: Vec<DVec3> = points.iter().map(|point| point.as_dvec3()).collect();
-    Apparatus::of(&CatmullRom::new(&points)?, steps)
+/// A curve in numbers and, where they are plotted, its parts.
+pub struct Taken {
+    pub measured: Measured,
+    pub segments: Option<Vec<Segment>>,
 }
 
-/// Every strand in numbers; `None` for those that are no curve.
-pub fn measure(strands: &StrandBuffer, steps: usize) -> Vec<Option<Measured>> {
-    let all = (0..strands.len()).into_par_iter();
-    all.map(|strand| {
-        let apparatus = apparatus(strands, strand, steps).ok()?;
-        let points = strands.strand_points(strand);
-        let ends = points.first()?.distance(*points.last()?) as f64;
-        of(&apparatus, ends)
-    })
-    .collect()
+/// The curve through the vertices of strand `strand`.
+pub fn points(strands: &StrandBuffer, strand: usize) -> Vec<DVec3> {
+    let points = strands.strand_points(strand);
+    points.iter().map(|point| point.as_dvec3()).collect()
+}
+
+/// Takes every strand apart; `None` for those that are no curve. Every `kept`th keeps its
+/// parts. `done` hears of each block of strands.
+pub fn measure(
+    strands: &StrandBuffer,
+    steps: usize,
+    kept: usize,
+    mut done: impl FnMut(usize),
+) -> Vec<Option<Taken>> {
+    let mut all = Vec::with_capacity(strands.len());
+    while all.len() < strands.len() {
+        let end = strands.len().min(all.len() + BLOCK);
+        let block = (all.len()..end).into_par_iter();
+        all.par_extend(block.map(|strand| {
+            let points = points(strands, strand);
+            let apparatus = Apparatus::of(&CatmullRom::new(&points).ok()?, steps).ok()?;
+            let ends = points.first()?.distance(*points.last()?);
+            let measured = of(&apparatus, ends)?;
+            let segments = strand.is_multiple_of(kept).then_some(apparatus.segments);
+            Some(Taken { measured, segments })
+        }));
+        done(all.len());
+    }
+    all
 }
 
 fn of(apparatus: &Apparatus, ends: f64) -> Option<Measured> {
@@ -58,7 +75,7 @@ fn of(apparatus: &Apparatus, ends: f64) -> Option<Measured> {
     if length <= 0.0 {
         return None;
     }
-    let sum = |part: fn(&pelage::curves::frenet::Segment) -> f64| {
+    let sum = |part: fn(&Segment) -> f64| {
         let parts = apparatus.segments.iter();
         parts
             .map(|segment| part(segment) * segment.length)

@@ -1,15 +1,17 @@
 //! `pelage analyze`: how curves bend.
 
+pub mod frames;
 mod measure;
 mod report;
 
 use super::args::AnalyzeArgs;
 use super::curves;
 use super::files::{json, write};
+use super::progress::Bar;
 use super::say::{Say, grouped};
 use anyhow::{Context, Result, bail};
-use measure::{Measured, measure};
-use report::{Report, plots};
+use measure::measure;
+use report::{PROFILES, Report, of_one, plots};
 use std::process::ExitCode;
 
 /// Measures every curve of a file and writes the report.
@@ -21,12 +23,18 @@ pub fn run(args: &AnalyzeArgs, say: &Say) -> Result<ExitCode> {
     if let Some(strand) = args.strand.filter(|&strand| strand >= strands.len()) {
         bail!("--strand {strand}: there are {} curves", strands.len());
     }
-    let measured: Vec<Option<Measured>> = measure(&strands, args.steps as usize);
-    let report = Report::new(&measured, args);
+    let steps = args.steps as usize;
+    let bar = Bar::new(say, strands.len() as u64, "curves");
+    let kept = strands.len().div_ceil(PROFILES);
+    let taken = measure(&strands, steps, kept, |done| bar.set(done as u64));
+    drop(bar);
+    let report = Report::new(&taken, args);
     let cannot = || format!("cannot write the report into {}", args.output.display());
     std::fs::create_dir_all(&args.output).with_context(cannot)?;
-    for (name, plot) in plots(&strands, &measured, report.strand(), args.steps as usize)? {
-        write(&args.output.join(name), &plot)?;
+    let mut pictures = plots(&taken, steps)?;
+    pictures.extend(of_one(&strands, report.strand(), steps)?);
+    for (name, picture) in pictures {
+        write(&args.output.join(name), &picture)?;
     }
     write(&args.output.join("statistics.json"), &json(&report)?)?;
     write(&args.output.join("report.md"), &report.page())?;

@@ -1,16 +1,16 @@
 //! The report: statistics of all curves, and plots.
 
-use super::measure::{Measured, apparatus};
+use super::frames;
+use super::measure::{Measured, Taken, points};
 use crate::cli::args::AnalyzeArgs;
 use crate::cli::plot::{Axes, Line, linear};
 use anyhow::Result;
 use pelage::StrandBuffer;
-use pelage::curves::frenet::Segment;
-use rayon::prelude::*;
+use pelage::curves::frenet::{Apparatus, CatmullRom, Sample, Segment};
 use serde::Serialize;
 
 /// Most curves whose profiles are kept for the plot of all; they are chosen evenly.
-const PROFILES: usize = 20_000;
+pub const PROFILES: usize = 20_000;
 
 /// Parts of all curves that statistics are told at.
 const QUANTILES: [(&str, f64); 5] = [
@@ -46,8 +46,12 @@ pub struct Report {
 }
 
 impl Report {
-    /// The report of what was `measured`.
-    pub fn new(measured: &[Option<Measured>], args: &AnalyzeArgs) -> Self {
+    /// The report of what was `taken` apart.
+    pub fn new(taken: &[Option<Taken>], args: &AnalyzeArgs) -> Self {
+        let measured: Vec<Option<Measured>> = (taken.iter())
+            .map(|one| one.as_ref().map(|taken| taken.measured))
+            .collect();
+        let measured = &measured[..];
         let file = args.file.file_name().unwrap_or_default().to_string_lossy();
         Self {
             file: file.into_owned(),
@@ -90,7 +94,10 @@ impl Report {
             torsion are radians per unit of length of the file; the bend of a curve is its \
             curvature along all of it, its helicity torsion over curvature.\n\n{}\n\n\
             ![Curvature of all curves](curvature.svg)\n\n![Torsion of all curves](torsion.svg)\n\n\
-            ![Curve {}](strand.svg)\n",
+            ![Curve {}](strand.svg)\n\n\
+            Frames along it by four rules: the line that goes round it has the direction of the \
+            normals, so what turns or jumps there turns a ribbon or a tube.\n\n\
+            ![Its frames](frames.svg)\n",
             self.file,
             self.curves,
             self.steps,
@@ -153,22 +160,13 @@ fn number(x: f64) -> String {
     }
 }
 
-/// The plots, each with the name of its file.
-pub fn plots(
-    strands: &StrandBuffer,
-    measured: &[Option<Measured>],
-    strand: usize,
-    steps: usize,
-) -> Result<Vec<(&'static str, String)>> {
-    let sound: Vec<usize> = (0..measured.len())
-        .filter(|&i| measured[i].is_some())
-        .collect();
-    let stride = sound.len().div_ceil(PROFILES).max(1);
-    let chosen: Vec<usize> = sound.into_iter().step_by(stride).collect();
-    let profiles: Vec<Vec<Segment>> = chosen
-        .par_iter()
-        .filter_map(|&strand| Some(apparatus(strands, strand, steps).ok()?.segments))
-        .collect();
+/// Plots and pictures, each with the name of its file.
+pub type Files = Vec<(&'static str, String)>;
+
+/// The plots of all curves.
+pub fn plots(taken: &[Option<Taken>], steps: usize) -> Result<Files> {
+    let kept = taken.iter().flatten();
+    let profiles: Vec<&[Segment]> = kept.filter_map(|t| t.segments.as_deref()).collect();
     let all = |title, part: fn(&Segment) -> f64| {
         let axes = Axes {
             title,
@@ -177,28 +175,37 @@ pub fn plots(
         };
         linear(&axes, &bands(&profiles, steps, part))
     };
-    let mut plots = Vec::new();
-    if !profiles.is_empty() {
-        plots.push((
-            "curvature.svg",
-            all("Curvature of all curves", |s| s.curvature)?,
-        ));
-        plots.push(("torsion.svg", all("Torsion of all curves", |s| s.torsion)?));
+    if profiles.is_empty() {
+        return Ok(Vec::new());
     }
-    if let Ok(one) = apparatus(strands, strand, steps) {
-        let title = format!("Curve {strand}");
-        let axes = Axes {
-            title: &title,
-            x: "length",
-            y: "radians per unit",
-        };
-        plots.push(("strand.svg", linear(&axes, &profile(&one.segments))?));
-    }
-    Ok(plots)
+    let curvature = all("Curvature of all curves", |s| s.curvature)?;
+    let torsion = all("Torsion of all curves", |s| s.torsion)?;
+    Ok(vec![("curvature.svg", curvature), ("torsion.svg", torsion)])
+}
+
+/// The plot of one curve, and the picture of its frames.
+pub fn of_one(strands: &StrandBuffer, strand: usize, steps: usize) -> Result<Files> {
+    let points = points(strands, strand);
+    let Ok(curve) = CatmullRom::new(&points) else {
+        return Ok(Vec::new());
+    };
+    let Ok(samples) = Sample::along(&curve, steps) else {
+        return Ok(Vec::new());
+    };
+    let title = format!("Curve {strand}");
+    let axes = Axes {
+        title: &title,
+        x: "length",
+        y: "radians per unit",
+    };
+    let one = Apparatus::of_samples(&samples)?;
+    let plot = linear(&axes, &profile(&one.segments))?;
+    let frames = frames::picture(&curve)?;
+    Ok(vec![("strand.svg", plot), ("frames.svg", frames)])
 }
 
 /// The middle of all profiles and where nine of ten lie.
-fn bands(profiles: &[Vec<Segment>], steps: usize, part: fn(&Segment) -> f64) -> Vec<Line> {
+fn bands(profiles: &[&[Segment]], steps: usize, part: fn(&Segment) -> f64) -> Vec<Line> {
     let mut lines = [("median", 0.5), ("5 %", 0.05), ("95 %", 0.95)].map(|(name, at)| {
         let line = Line {
             name: name.into(),

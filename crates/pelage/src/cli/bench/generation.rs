@@ -1,10 +1,10 @@
 //! `pelage bench generation`: the cost of hairs by stage, as document 004 tells it
 //! (4.2.1), cold and with the rest pose captured.
 
-use super::Findings;
 use super::bars::Bars;
 use super::cost::{Row, bytes_of_a_hair, captured, cold, copying, warm};
 use super::scenes::{Scene, scenes};
+use super::{Findings, machine};
 use crate::cli::files::json;
 use crate::cli::generate::threads_of;
 use crate::cli::progress::Bar;
@@ -225,26 +225,6 @@ impl Results {
         };
         plot.svg()
     }
-}
-
-/// The machine, and how busy it is with other work, where the system tells.
-fn machine() -> String {
-    let cores = threads_of(0);
-    let mut text = format!("{}, {cores} cores", std::env::consts::ARCH);
-    let line_of = |path: &str, start: &str| {
-        let all = std::fs::read_to_string(path).unwrap_or_default();
-        let line = all.lines().find(|line| line.starts_with(start));
-        line.map(str::to_owned)
-    };
-    let model = line_of("/proc/cpuinfo", "model name");
-    if let Some((_, model)) = model.as_deref().and_then(|line| line.split_once(':')) {
-        text += &format!(" of {}", model.trim());
-    }
-    let load = line_of("/proc/loadavg", "");
-    if let Some(load) = load.as_deref().and_then(|line| line.split(' ').next()) {
-        text += &format!(", at a load of {load} before it began");
-    }
-    text
 }
 
 /// What a scene is called in tables and plots.

@@ -2,6 +2,7 @@
 
 mod bars;
 mod cost;
+mod curves;
 mod generation;
 mod maps;
 mod measure;
@@ -14,6 +15,7 @@ mod surfaces;
 
 use super::args::{Bench, BenchArgs};
 use super::files::write;
+use super::generate::threads_of;
 use super::say::Say;
 use anyhow::{Context, Result};
 use std::process::ExitCode;
@@ -32,6 +34,7 @@ pub struct Findings {
 pub fn run(args: &BenchArgs, say: &Say) -> Result<ExitCode> {
     let found = match args.what {
         Bench::Sampling => sampling::run(args.quick, say).findings()?,
+        Bench::Curves => curves::run(args.quick, say)?.findings()?,
         Bench::Generation => generation::run(args.quick, say)?.findings()?,
     };
     say.line(found.tables.trim_end());
@@ -46,4 +49,24 @@ pub fn run(args: &BenchArgs, say: &Say) -> Result<ExitCode> {
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The machine, and how busy it is with other work, where the system tells.
+fn machine() -> String {
+    let cores = threads_of(0);
+    let mut text = format!("{}, {cores} cores", std::env::consts::ARCH);
+    let line_of = |path: &str, start: &str| {
+        let all = std::fs::read_to_string(path).unwrap_or_default();
+        let line = all.lines().find(|line| line.starts_with(start));
+        line.map(str::to_owned)
+    };
+    let model = line_of("/proc/cpuinfo", "model name");
+    if let Some((_, model)) = model.as_deref().and_then(|line| line.split_once(':')) {
+        text += &format!(" of {}", model.trim());
+    }
+    let load = line_of("/proc/loadavg", "");
+    if let Some(load) = load.as_deref().and_then(|line| line.split(' ').next()) {
+        text += &format!(", at a load of {load} before it began");
+    }
+    text
 }
