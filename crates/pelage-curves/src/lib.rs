@@ -36,6 +36,7 @@ mod jet;
 mod many;
 mod nurbs;
 mod spline_error;
+pub mod super_helix;
 pub mod tube;
 
 pub use arc_length::ArcLength;
