@@ -22,8 +22,17 @@ const STEPS: [usize; 2] = [8, 30];
 /// Gain of a step at which a fit on the way is left, and the last.
 const GAIN: [f64; 2] = [3e-2, 1e-3];
 
+/// What turning as much as the target costs, as a part of the misses.
+const CALM: f64 = 0.02;
+
 /// Samples an element at least.
 const SAMPLES_PER_ELEMENT: usize = 4;
+
+/// A largest error of so many times the bound may come within it by evening out.
+const EVENED: f64 = 2.0;
+
+/// What is left to errors between samples.
+const MARGIN: f64 = 0.01;
 
 /// Fits a Super-Helix to `target`.
 ///
@@ -118,6 +127,7 @@ impl<C: SpaceCurve> Search<'_, C> {
             solver,
             steps: STEPS[stage],
             gain: GAIN[stage],
+            calm: CALM,
         }
     }
 
@@ -138,6 +148,14 @@ impl<C: SpaceCurve> Search<'_, C> {
         self.steps += steps;
         self.note(&reduced);
         reduced
+    }
+
+    /// Lowers the largest error of a shape to `bound` if it can; gives an upper bound of it.
+    fn evened(&mut self, shape: &mut Shape, bound: f64) -> f64 {
+        let relax = self.relax(false);
+        self.steps += relax.even_out(shape, &self.samples, bound * (1.0 - MARGIN));
+        self.note(shape);
+        self.worst(shape, bound)
     }
 
     /// Keeps the error of a shape.
@@ -176,8 +194,11 @@ impl<C: SpaceCurve> Search<'_, C> {
             elements = (elements + elements.div_ceil(2)).min(self.settings.most_elements);
         };
         while worst <= bound && shape.elements() > 1 {
-            let less = self.reduced(&shape);
-            let now = self.worst(&less, bound);
+            let mut less = self.reduced(&shape);
+            let mut now = self.worst(&less, bound);
+            if now > bound && now <= EVENED * bound {
+                now = self.evened(&mut less, bound);
+            }
             if now > bound {
                 break;
             }

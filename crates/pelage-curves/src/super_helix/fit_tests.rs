@@ -149,6 +149,34 @@ fn the_error_never_rises_as_elements_are_added() {
 }
 
 #[test]
+fn no_element_turns_wildly_where_few_cannot_follow() {
+    let turning = |curve: &dyn Fn(f64) -> DVec3| -> f64 {
+        let tangents: Vec<DVec3> = (0..=2000).map(|i| curve(i as f64 / 2000.0)).collect();
+        tangents.windows(2).map(|t| t[0].angle_between(t[1])).sum()
+    };
+    for target in strands() {
+        let measure = Measure::new(&target).unwrap();
+        let own = turning(&|part| {
+            let (piece, t) = measure.locate(&target, part * measure.total());
+            target.at(piece, t)[1]
+        });
+        for elements in 1..12 {
+            for move_joints in [true, false] {
+                let settings = Settings {
+                    move_joints,
+                    ..Settings::new(Goal::Elements(elements))
+                };
+                let found = fit(&target, &settings).unwrap().curve;
+                let fits = turning(&|part| found.at(part * found.length()).frame.tangent);
+                assert!(fits < 5.0 * own, "{elements}: {fits} for {own}");
+                let twist = found.elements().iter().map(|e| e.twist.abs());
+                assert!(twist.fold(0.0, f64::max) * found.length() < 20.0 * own);
+            }
+        }
+    }
+}
+
+#[test]
 fn a_bound_that_few_elements_cannot_keep_is_told() {
     let [wave, ..] = strands();
     let settings = Settings {

@@ -11,9 +11,14 @@ use glam::DVec3;
 /// Residual, in the norm of the preconditioner and against the first, at which it is solved.
 const ACCURACY: f64 = 1e-10;
 
-/// As [`sweep::solve`](super::sweep::solve), to [`ACCURACY`], or to what twice as many
+/// As [`sweep::solve`](super::sweep::solve), for a gradient `slope`, to [`ACCURACY`], or to what twice as many
 /// iterations as there are unknowns (in exact arithmetic: more than all) have reached.
-pub(super) fn solve(linear: &Linear, blocks: &Blocks, damping: &[Block]) -> Option<Vec<Block>> {
+pub(super) fn solve(
+    linear: &Linear,
+    blocks: &Blocks,
+    damping: &[Block],
+    slope: &[Block],
+) -> Option<Vec<Block>> {
     let roots = preconditioner(blocks, damping)?;
     let precondition = |r: &[Block]| -> Vec<Block> {
         roots
@@ -22,8 +27,7 @@ pub(super) fn solve(linear: &Linear, blocks: &Blocks, damping: &[Block]) -> Opti
             .map(|(root, r)| root.solve(*r))
             .collect()
     };
-    let mut residual = vec![[0.0; 4]; damping.len()];
-    linear.transposed(|row| -linear.rows[row].residual, &mut residual);
+    let mut residual: Vec<Block> = slope.iter().map(|block| block.map(|x| -x)).collect();
     let mut step = vec![[0.0; 4]; damping.len()];
     let mut direction = precondition(&residual);
     let mut size = dot(&residual, &direction);

@@ -77,7 +77,7 @@ impl Linear {
         shape.walk(samples, |element, start, frame, motion| {
             sample += 1;
             let weight = freedom.weight(samples, sample);
-            let (arm, spin) = (*frame * motion.shift(), *frame * motion.spin());
+            let arm = *frame * motion.shift();
             rows.push(Row {
                 mass: weight,
                 arm: arm * weight,
@@ -86,7 +86,7 @@ impl Linear {
             });
             if freedom.orientation > 0.0 {
                 let weight = weight * freedom.orientation;
-                let tangent = *frame * motion.tangent();
+                let (tangent, spin) = (*frame * motion.tangent(), *frame * motion.spin());
                 let turned = |k: usize| spin.col(k).cross(tangent) * weight;
                 rows.push(Row {
                     mass: 0.0,

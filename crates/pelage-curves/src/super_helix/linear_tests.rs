@@ -19,6 +19,7 @@ fn problem(rates: &[[f64; 3]], cuts: &[f64], steps: usize) -> (Shape, Samples) {
     let samples = Samples {
         points: points.collect(),
         tangents: tangents.collect(),
+        turning: 1.0,
     };
     let root = DMat3::IDENTITY;
     (
@@ -113,7 +114,7 @@ proptest! {
         let size = dot(&slope, &slope).sqrt();
         for (name, step) in [
             ("sweep", sweep::solve(&linear, &blocks, &damping).unwrap()),
-            ("gradients", gradients::solve(&linear, &blocks, &damping).unwrap()),
+            ("gradients", gradients::solve(&linear, &blocks, &damping, &slope).unwrap()),
         ] {
             // (JᵀJ + D) step + Jᵀ residual, which is to vanish.
             let mut product = vec![DVec3::ZERO; linear.rows.len()];

@@ -17,6 +17,7 @@ mod bound;
 mod curve;
 mod element;
 mod error;
+mod even;
 mod fit;
 mod gradients;
 mod linear;

@@ -20,6 +20,9 @@ pub(super) struct Relax<'a> {
     pub steps: usize,
     /// It is over when a step lowers the cost by less than this part of it.
     pub gain: f64,
+    /// What a shape that turns as much as the target costs, as a part of its misses: see
+    /// [`Prior`].
+    pub calm: f64,
 }
 
 /// First damping, as a part of the diagonal.
@@ -40,30 +43,36 @@ const STIFFNESS: f64 = 100.0;
 const KEPT_LENGTH: f64 = 0.3;
 
 impl Relax<'_> {
-    /// Moves `shape` until its cost hardly falls; gives the cost and how many steps were
+    /// Moves `shape` until its cost hardly falls; gives the misses' part of it and how many steps were
     /// tried.
     pub fn run(&self, shape: &mut Shape, samples: &Samples) -> (f64, usize) {
-        let mut cost = self.freedom.cost(shape, samples);
+        let mut miss = self.freedom.cost(shape, samples);
+        let mut prior = self.prior(samples, miss);
+        let mut cost = miss + prior.cost(shape);
         let (mut damping, mut growth) = (DAMPING, 2.0);
         let mut tried = 0;
-        let mut model = self.model(shape, samples, cost);
+        let mut model = self.model(shape, samples, cost, &prior);
         while tried < self.steps && damping < MOST_DAMPING && cost > f64::MIN_POSITIVE {
             tried += 1;
             let foretold = model.step(self.solver, damping);
             let moved = foretold.as_ref().map(|(step, _)| shape.moved(step));
-            let next = moved.as_ref().map(|to| self.freedom.cost(to, samples));
-            match (foretold, moved, next) {
-                (Some((_, fall)), Some(to), Some(next)) if next < cost => {
-                    let gain = cost - next;
+            let misses = moved.as_ref().map(|to| self.freedom.cost(to, samples));
+            let costs = moved.as_ref().map_or(0.0, |to| prior.cost(to));
+            match (foretold, moved, misses) {
+                (Some((_, fall)), Some(to), Some(now)) if now + costs < cost => {
+                    let gain = cost - (now + costs);
                     let off = 2.0 * gain / fall - 1.0;
                     damping *= (1.0 - off * off * off).max(1.0 / 10.0);
                     growth = 2.0;
-                    (*shape, cost) = (to, next);
+                    (*shape, miss) = (to, now);
+                    let next = now + costs;
+                    prior = self.prior(samples, miss);
+                    cost = miss + prior.cost(shape);
                     if gain <= self.gain * next {
                         break;
                     }
                     if tried < self.steps {
-                        model = self.model(shape, samples, cost);
+                        model = self.model(shape, samples, cost, &prior);
                     }
                 }
                 _ => {
@@ -72,14 +81,27 @@ impl Relax<'_> {
                 }
             }
         }
-        (cost, tried)
+        (miss, tried)
     }
 
-    fn model(&self, shape: &Shape, samples: &Samples, cost: f64) -> Model {
+    fn model(&self, shape: &Shape, samples: &Samples, cost: f64, prior: &Prior) -> Model {
         let linear = Linear::new(shape, samples, &self.freedom);
-        let blocks = Blocks::new(&linear);
+        let mut blocks = Blocks::new(&linear);
         let mut slope = vec![[0.0; 4]; shape.elements() + 1];
         linear.transposed(|row| linear.rows[row].residual, &mut slope);
+        let mut calm = vec![[0.0; 4]; shape.elements() + 1];
+        for i in 0..shape.elements() {
+            let mut pull = prior.gradient(shape, i);
+            if !self.freedom.joints {
+                pull[3] = 0.0;
+            }
+            for k in 0..4 {
+                slope[i + 1][k] += pull[k];
+                blocks.own[i].gradient[6 + k] += pull[k];
+            }
+            let stiff = prior.0 * shape.length(i);
+            calm[i + 1] = [stiff, stiff, stiff, 0.0];
+        }
         let mut stiffness = vec![0.0; shape.elements() + 1];
         for i in 1..shape.elements() {
             let shorter = shape.length(i - 1).min(shape.length(i));
@@ -89,6 +111,7 @@ impl Relax<'_> {
             linear,
             blocks,
             slope,
+            calm,
             stiffness,
         }
     }
@@ -98,8 +121,10 @@ impl Relax<'_> {
 struct Model {
     linear: Linear,
     blocks: Blocks,
-    /// Jᵀ residual.
+    /// The gradient of the cost.
     slope: Vec<Block>,
+    /// The diagonal Hessian of the prior.
+    calm: Vec<Block>,
     /// What joints are damped by beside their diagonal.
     stiffness: Vec<f64>,
 }
@@ -116,15 +141,54 @@ impl Model {
                 all.map(|d| damping * d + f64::MIN_POSITIVE)
             })
             .collect();
+        let (linear, blocks) = (&self.linear, &self.blocks);
+        let all = self.calm.iter().zip(&diagonal);
+        let all: Vec<Block> = all
+            .map(|(calm, d)| std::array::from_fn(|k| calm[k] + d[k]))
+            .collect();
         let step = match solver {
-            Solver::Sweep => sweep::solve(&self.linear, &self.blocks, &diagonal),
-            Solver::ConjugateGradients => gradients::solve(&self.linear, &self.blocks, &diagonal),
+            Solver::Sweep => sweep::solve(linear, blocks, &all),
+            Solver::ConjugateGradients => gradients::solve(linear, blocks, &all, &self.slope),
         }?;
         let mut fall = 0.0;
         for ((x, d), g) in step.iter().zip(&diagonal).zip(&self.slope) {
             fall += (0..4).map(|k| x[k] * (d[k] * x[k] - g[k])).sum::<f64>() / 2.0;
         }
         (fall > 0.0 && fall.is_finite()).then_some((step, fall))
+    }
+}
+
+/// What turning costs: an element whose twist nothing tells would turn at will, and one
+/// that follows no wave would cross it in a fine coil (the poster's "visually appalling"
+/// minima). The factor of half the integral of |ω|².
+///
+/// It is a part of the misses as they stand, so that a perfect fit has none.
+#[derive(Clone, Copy, Debug)]
+struct Prior(f64);
+
+impl Relax<'_> {
+    fn prior(&self, samples: &Samples, miss: f64) -> Prior {
+        let pace = 1.0 + samples.turning;
+        Prior(2.0 * self.calm * miss / (pace * pace))
+    }
+}
+
+impl Prior {
+    fn cost(&self, shape: &Shape) -> f64 {
+        let square = |i: usize| shape.rates[i].length_squared() * shape.length(i);
+        self.0 / 2.0 * (0..shape.elements()).map(square).sum::<f64>()
+    }
+
+    /// With respect to an element's four.
+    fn gradient(&self, shape: &Shape, element: usize) -> Block {
+        let rate = shape.rates[element];
+        let pull = rate * (self.0 * shape.length(element));
+        let square = |rate: &DVec3| rate.length_squared();
+        let joint = match shape.rates.get(element + 1) {
+            Some(next) => self.0 / 2.0 * (square(&rate) - square(next)),
+            None => 0.0,
+        };
+        [pull.x, pull.y, pull.z, joint]
     }
 }
 

@@ -8,7 +8,8 @@
 use super::linear::{Block, Linear};
 use super::quadratic::{ALL, Blocks, Cholesky, Quadratic, over};
 
-/// The step that solves (JᵀJ + `damping`) step = -Jᵀ residual, `damping` a diagonal; `None`
+/// The step that solves (JᵀJ + `damping`) step = -gradient, `damping` a diagonal and the
+/// gradient that of `blocks`; `None`
 /// where the matrix is not positive to rounding.
 pub(super) fn solve(linear: &Linear, blocks: &Blocks, damping: &[Block]) -> Option<Vec<Block>> {
     let mut answers = Vec::with_capacity(linear.links.len());

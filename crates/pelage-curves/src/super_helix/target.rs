@@ -21,6 +21,8 @@ pub(super) struct Samples {
     pub points: Vec<DVec3>,
     /// Unit tangents there; where the curve stands still, that before.
     pub tangents: Vec<DVec3>,
+    /// Sum of the angles between neighbouring tangents, in radians.
+    pub turning: f64,
 }
 
 /// Fewest and most steps that a target is sampled with before a fit is known to need more.
@@ -57,7 +59,7 @@ impl<'a, C: SpaceCurve> Target<'a, C> {
     pub fn samples(&self) -> Samples {
         let mut steps = self.curve.pieces().clamp(STEPS[0], STEPS[1]);
         let mut samples = self.sampled(steps);
-        while samples.turning() > TURN * steps as f64 && steps < STEPS[1] {
+        while samples.turning > TURN * steps as f64 && steps < STEPS[1] {
             steps = (2 * steps).min(STEPS[1]);
             samples = self.sampled(steps);
         }
@@ -76,8 +78,11 @@ impl<'a, C: SpaceCurve> Target<'a, C> {
             before = tangent.or(before);
             before.unwrap_or(DVec3::Z)
         });
+        let tangents: Vec<DVec3> = filled.collect();
+        let angle = |t: &[DVec3]| libm::atan2(t[0].cross(t[1]).length(), t[0].dot(t[1]));
         Samples {
-            tangents: filled.collect(),
+            turning: tangents.windows(2).map(angle).sum(),
+            tangents,
             points,
         }
     }
@@ -92,11 +97,5 @@ impl Samples {
     #[inline(always)]
     pub fn s(&self, index: usize) -> f64 {
         index as f64 / self.steps() as f64
-    }
-
-    /// Sum of the angles between neighbouring tangents, in radians.
-    fn turning(&self) -> f64 {
-        let angle = |t: &[DVec3]| libm::atan2(t[0].cross(t[1]).length(), t[0].dot(t[1]));
-        self.tangents.windows(2).map(angle).sum()
     }
 }

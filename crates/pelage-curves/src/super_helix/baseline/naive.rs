@@ -42,6 +42,7 @@ pub fn root_to_tip(target: &impl SpaceCurve, elements: usize) -> Result<SuperHel
         solver: Solver::Sweep,
         steps: 20,
         gain: 1e-6,
+        calm: 0.0,
     };
     let (mut position, mut frame) = (glam::DVec3::ZERO, shape.root);
     for i in 0..elements {
@@ -56,6 +57,7 @@ pub fn root_to_tip(target: &impl SpaceCurve, elements: usize) -> Result<SuperHel
         let samples = Samples {
             points: points.iter().map(|&p| (p - position) / length).collect(),
             tangents: all.tangents[i * SAMPLES..=(i + 1) * SAMPLES].to_vec(),
+            turning: 0.0,
         };
         relax.run(&mut one, &samples);
         shape.rates[i] = one.rates[0] / length;
