@@ -78,9 +78,9 @@ proptest! {
             Linear::new(&shape.moved(&step), &samples, &FREE)
         };
         let (plus, minus) = (moved(h), moved(-h));
-        for i in 0..linear.rows.len() {
+        for (i, foretold) in foretold.iter().enumerate() {
             let slope = (plus.rows[i].residual - minus.rows[i].residual) / (2.0 * h);
-            prop_assert!(slope.distance(foretold[i]) < 2e-5, "row {}: {} {}", i, slope, foretold[i]);
+            prop_assert!(slope.distance(*foretold) < 2e-5, "row {}: {} {}", i, slope, foretold);
         }
     }
 
@@ -141,13 +141,13 @@ proptest! {
                 linear.product(&unit, &mut product);
                 product
             };
-            for a in 0..4 {
-                for b in 0..4 {
+            for (a, line) in block.iter().enumerate() {
+                for (b, found) in line.iter().enumerate() {
                     // The root has no fourth unknown.
                     let exists = i > 0 || (a < 3 && b < 3);
                     let pairs = column(a).into_iter().zip(column(b));
                     let exact = pairs.map(|(x, y)| x.dot(y)).sum::<f64>() * f64::from(exists);
-                    prop_assert!((block[a][b] - exact).abs() < 1e-11, "{} {}", block[a][b], exact);
+                    prop_assert!((found - exact).abs() < 1e-11, "{} {}", found, exact);
                 }
             }
         }

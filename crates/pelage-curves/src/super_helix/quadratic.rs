@@ -47,11 +47,12 @@ impl Blocks {
             after = before(&all);
         }
         if linear.root {
-            for a in 0..3 {
-                for b in 0..3 {
-                    diagonal[0][a][b] = after.hessian[3 + a.min(b)][3 + a.max(b)];
-                }
-            }
+            diagonal[0] = std::array::from_fn(|a| {
+                std::array::from_fn(|b| match a < 3 && b < 3 {
+                    true => after.hessian[3 + a.min(b)][3 + a.max(b)],
+                    false => 0.0,
+                })
+            });
         }
         Self { own, diagonal }
     }
@@ -156,21 +157,18 @@ impl Sums {
 pub(super) fn over(link: &Link, after: &Quadratic<6>, own: &Quadratic<ALL>) -> Quadratic<ALL> {
     let map = transfer(link);
     let mut pushed = [[0.0; ALL]; 6];
-    for a in 0..6 {
-        for b in 0..6 {
+    for (a, line) in pushed.iter_mut().enumerate() {
+        for (b, moved) in map.iter().enumerate() {
             let h = after.hessian[a.min(b)][a.max(b)];
-            for c in 0..ALL {
-                pushed[a][c] += h * map[b][c];
-            }
+            line.iter_mut().zip(moved).for_each(|(p, m)| *p += h * m);
         }
     }
     let mut sum = *own;
-    for a in 0..6 {
-        for c in 0..ALL {
-            for d in 0..ALL {
-                sum.hessian[c][d] += map[a][c] * pushed[a][d];
-            }
-            sum.gradient[c] += map[a][c] * after.gradient[a];
+    for ((moved, line), g) in map.iter().zip(&pushed).zip(&after.gradient) {
+        let rows = sum.hessian.iter_mut().zip(&mut sum.gradient);
+        for ((row, slope), m) in rows.zip(moved) {
+            row.iter_mut().zip(line).for_each(|(x, p)| *x += m * p);
+            *slope += m * g;
         }
     }
     sum

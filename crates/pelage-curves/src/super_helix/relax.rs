@@ -103,9 +103,13 @@ impl Relax<'_> {
             calm[i + 1] = [stiff, stiff, stiff, 0.0];
         }
         let mut stiffness = vec![0.0; shape.elements() + 1];
-        for i in 1..shape.elements() {
-            let shorter = shape.length(i - 1).min(shape.length(i));
-            stiffness[i] = STIFFNESS * cost / (shorter * shorter);
+        for (i, stiffness) in stiffness.iter_mut().enumerate().skip(1) {
+            let after = shape
+                .joints
+                .get(i + 1)
+                .map_or(1.0, |end| end - shape.joints[i]);
+            let shorter = shape.length(i - 1).min(after);
+            *stiffness = STIFFNESS * cost / (shorter * shorter);
         }
         Model {
             linear,
