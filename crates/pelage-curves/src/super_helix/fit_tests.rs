@@ -171,10 +171,7 @@ fn no_element_turns_wildly_where_few_cannot_follow() {
                 assert!(fits < 5.0 * own, "{elements}: {fits} for {own}");
                 let turns = found.elements().iter().map(|e| e.twist.abs() * e.length);
                 let most = turns.fold(0.0, f64::max);
-                assert!(
-                    most < own + 4.0 * std::f64::consts::PI,
-                    "{elements}: {most} for {own}"
-                );
+                assert!(most < 5.0 * own, "{elements}: {most} for {own}");
             }
         }
     }
