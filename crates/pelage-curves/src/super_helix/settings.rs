@@ -102,8 +102,9 @@ pub struct Fit {
     /// The curve; as long as the target, to the bit.
     pub curve: SuperHelix,
     /// No place of it is farther than this from the target's at equal arc length: an upper
-    /// bound, in the target's unit, and at most 2 % (and 1e-6 of the length) above what is
-    /// so.
+    /// bound, in the target's unit. For a number of elements it is at most 2 % (and 1e-6 of
+    /// the length) above what is so; where a bound was asked for it is as near as tells that
+    /// it is kept. Where one is not kept it is the largest error at the samples, or more.
     pub worst: f64,
     /// Mean distance over samples at equal steps of arc length.
     pub mean: f64,
