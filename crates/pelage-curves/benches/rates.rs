@@ -1,6 +1,7 @@
-//! Rates of frames, NURBS and tubes on one core: `cargo bench -p pelage-curves`.
+//! Rates of frames, NURBS, tubes and Super-Helices on one core: `cargo bench -p pelage-curves`.
 
 use pelage_curves::frenet::{Apparatus, Frame, Measure, Placed, Sample, Segment};
+use pelage_curves::super_helix::{Goal, Settings, Solver, fit};
 use pelage_curves::tube::{Rings, Section, Tube};
 use pelage_curves::{Chain, DVec3, FrameScratch, Framing, Jet, Nurbs, Vec3, untwisted_normals};
 use std::hint::black_box;
@@ -14,6 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     frames();
     nurbs()?;
     tubes()?;
+    super_helices()?;
     Ok(())
 }
 
@@ -180,4 +182,58 @@ fn tubes() -> Result<(), Box<dyn std::error::Error>> {
         black_box(tube.sweep(&curve, &section, |t| 0.1 * (1.0 - t))).ok();
     });
     Ok(())
+}
+
+/// Strands of 100 points as Super-Helices, and the two solvers against each other.
+fn super_helices() -> Result<(), Box<dyn std::error::Error>> {
+    let point = |x: f64, turns: f64| {
+        let (size, angle) = (0.05 * (0.3 + x), turns * x);
+        DVec3::new(size * libm::cos(angle), size * libm::sin(angle), x)
+    };
+    for (name, turns) in [("wide", 15.0), ("tight", 60.0)] {
+        let points: Vec<DVec3> = (0..100).map(|i| point(i as f64 / 99.0, turns)).collect();
+        let curl = Chain::catmull_rom(&points, 0.5)?;
+        for goal in [Goal::Elements(10), Goal::RelativeError(0.01)] {
+            once(&format!("{name} curl to {goal:?}"), || {
+                black_box(fit(black_box(&curl), &Settings::new(goal))).ok();
+            });
+        }
+    }
+    for elements in [8, 16, 64, 256] {
+        // A wave for every two elements, so that none of them is idle.
+        let wave = |i: usize| {
+            let x = i as f64 / 8.0;
+            DVec3::new(x, 0.5 * libm::sin(x), 0.2 * libm::sin(0.3 * x))
+        };
+        let points: Vec<DVec3> = (0..25 * elements).map(wave).collect();
+        let curve = Chain::catmull_rom(&points, 0.5)?;
+        for solver in [Solver::Sweep, Solver::ConjugateGradients] {
+            let settings = Settings {
+                solver,
+                start: Some(elements),
+                ..Settings::new(Goal::Elements(elements))
+            };
+            let found = fit(&curve, &settings)?;
+            let name = format!(
+                "{elements} elements by {solver:?}, {} steps, error {:.1e}",
+                found.steps,
+                found.worst / found.curve.length()
+            );
+            once(&name, || {
+                black_box(fit(black_box(&curve), &settings)).ok();
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Milliseconds at best.
+fn once(name: &str, mut work: impl FnMut()) {
+    let mut best = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let started = Instant::now();
+        work();
+        best = best.min(started.elapsed().as_secs_f64());
+    }
+    println!("{name:<64} {:>8.2} ms", best * 1e3);
 }

@@ -95,6 +95,23 @@ impl Chain {
         Ok(Self { points: chain })
     }
 
+    /// The polygon through `points`, an edge a piece. A single point is a curve without
+    /// length.
+    ///
+    /// # Errors
+    ///
+    /// [`SplineError::Points`] for none, [`SplineError::NotFinite`].
+    pub fn polygon(points: &[DVec3]) -> Result<Self, SplineError> {
+        let first = check_through(points, 0.0)?;
+        let edge = |p: &[DVec3]| [p[0] + (p[1] - p[0]) / 3.0, p[1] + (p[0] - p[1]) / 3.0, p[1]];
+        let mut chain = vec![first];
+        chain.extend(points.windows(2).flat_map(edge));
+        if points.len() == 1 {
+            chain.extend([first; 3]);
+        }
+        Ok(Self { points: chain })
+    }
+
     /// `curve` piece by piece, whatever its basis.
     ///
     /// # Errors

@@ -11,7 +11,8 @@
 //! [`Chain`] (Bézier, Catmull-Rom of any exponent, whatever a [`Curve`] is) and [`Nurbs`],
 //! with three derivatives ([`Jet`]), exact splits, tight bounds, curvature and torsion
 //! ([`Bend`]), arc length ([`frenet::Measure`]) and even points ([`resample`]). What bends
-//! and winds is in [`frenet`], frames in [`Framing`], generalised cylinders in [`tube`].
+//! and winds is in [`frenet`], frames in [`Framing`], generalised cylinders in [`tube`], and
+//! curves as few numbers in [`super_helix`].
 //!
 //! ```
 //! use pelage_curves::{Vec3, Curve, Basis, Wrap};
@@ -36,6 +37,7 @@ mod jet;
 mod many;
 mod nurbs;
 mod spline_error;
+pub mod super_helix;
 pub mod tube;
 
 pub use arc_length::ArcLength;

@@ -12,7 +12,7 @@ const FITS: f64 = 1e-12;
 /// The normal of `frame` turned by the smallest rotation that brings its tangent onto the
 /// unit tangent `to`. Where that is the opposite one, all axes are as good: the normal is
 /// kept, as if turned about itself.
-pub(super) fn turned(frame: &Frame, to: DVec3) -> DVec3 {
+pub(crate) fn turned(frame: &Frame, to: DVec3) -> DVec3 {
     let (from, normal) = (frame.tangent, frame.normal);
     let both = 1.0 + from.dot(to);
     if both < OPPOSITE {

@@ -22,6 +22,7 @@ mod closing;
 use crate::frenet::{Frame, FrenetError, Sample, perpendicular, tangents};
 use glam::DVec3;
 
+pub(crate) use carry::turned;
 pub use closing::{close_frames, twists};
 
 /// How the frames of a curve are chosen.
