@@ -9,23 +9,25 @@ use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
 
 /// Hairs side by side: two of the widest common vectors.
-pub(crate) const LANES: usize = 16;
+pub const LANES: usize = 16;
 
 /// One number of each of the hairs that are side by side.
-pub(crate) type Row = [f32; LANES];
+pub type Row = [f32; LANES];
 
 /// One vector of each: all x, all y, all z.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Rows(pub [Row; 3]);
+pub struct Rows(pub [Row; 3]);
 
 impl Rows {
+    /// The vector in `lane`.
     #[inline(always)]
-    pub(crate) fn get(&self, lane: usize) -> Vec3 {
+    pub fn get(&self, lane: usize) -> Vec3 {
         Vec3::new(self.0[0][lane], self.0[1][lane], self.0[2][lane])
     }
 
+    /// Puts a vector into `lane`.
     #[inline(always)]
-    pub(crate) fn set(&mut self, lane: usize, vector: Vec3) {
+    pub fn set(&mut self, lane: usize, vector: Vec3) {
         for (row, x) in self.0.iter_mut().zip(vector.to_array()) {
             row[lane] = x;
         }
@@ -34,7 +36,7 @@ impl Rows {
     /// A vector of each of the things that are side by side, [`LANES`] at most; zero in the
     /// lanes behind them.
     #[inline(always)]
-    pub(crate) fn of<T>(things: &[T], vector: impl Fn(&T) -> Vec3) -> Self {
+    pub fn of<T>(things: &[T], vector: impl Fn(&T) -> Vec3) -> Self {
         let mut rows = Self::default();
         for (lane, one) in things.iter().enumerate() {
             rows.set(lane, vector(one));
@@ -44,7 +46,7 @@ impl Rows {
 
     /// The vectors that `vector` makes of each lane.
     #[inline(always)]
-    pub(crate) fn from_fn(vector: impl Fn(usize) -> Vec3) -> Self {
+    pub fn from_fn(vector: impl Fn(usize) -> Vec3) -> Self {
         let mut rows = Self::default();
         for lane in 0..LANES {
             rows.set(lane, vector(lane));

@@ -29,7 +29,7 @@ mod guide;
 mod guide_set;
 mod guide_shapes;
 mod in_order;
-mod lanes;
+pub mod lanes;
 mod locator;
 mod looks;
 mod maps;

@@ -26,10 +26,11 @@ pub fn rows(vertices: &[Vec3]) -> impl Iterator<Item = Row> {
 }
 
 /// Writes the vertices of a hair into `lane` of `hair`, as many as there are rows there;
-/// those behind the last of the guides stand where that does. `guides` holds the [`rows`] of
+/// those behind the last of the guides stand where that does; `lane` is below
+/// [`LANES`](crate::lanes::LANES), and there are rows for all `vertices`. `guides` holds the [`rows`] of
 /// all guides of the group, each of `vertices` vertices, one guide after the other.
 #[inline(always)]
-pub(crate) fn interpolate(
+pub fn interpolate(
     guides: &[Row],
     vertices: usize,
     shares: &[Share],

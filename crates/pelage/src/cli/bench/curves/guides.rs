@@ -8,6 +8,7 @@ use crate::cli::space::{Panel, Stroke, View, picture};
 use anyhow::Result;
 use pelage::curves::frenet::{Apparatus, Frame, Ordered, Segment, mix_bases, mix_integrals};
 use pelage::curves::{DVec3, Vec3};
+use pelage::groom::lanes::{LANES, Rows};
 use pelage::groom::random::{Channel, uniform};
 use pelage::groom::stages::frenet::{Corner, Parts, Scratch, corners, wind};
 use pelage::groom::stages::interpolate::{Row as Packed, interpolate, rows};
@@ -156,8 +157,16 @@ fn mix(kind: usize, all: &[Ready]) -> Result<Vec<Strand>> {
 fn of_vertices(all: &[Ready], wound: bool) -> Vec<Strand> {
     let count = SEGMENTS + 1;
     let mut vertices = vec![Vec3::ZERO; count * all.len()];
-    for (ready, hair) in all.iter().zip(vertices.chunks_mut(count)) {
-        interpolate(&ready.rows, &ready.shares, hair);
+    let mut side_by_side = vec![Rows::default(); count];
+    for (all, hairs) in all.chunks(LANES).zip(vertices.chunks_mut(count * LANES)) {
+        for (lane, ready) in all.iter().enumerate() {
+            interpolate(&ready.rows, count, &ready.shares, lane, &mut side_by_side);
+        }
+        for (lane, hair) in hairs.chunks_mut(count).enumerate() {
+            for (vertex, row) in hair.iter_mut().zip(&side_by_side) {
+                *vertex = row.get(lane);
+            }
+        }
     }
     if wound {
         let starts: Vec<u32> = (0..=all.len()).map(|i| (i * count) as u32).collect();
