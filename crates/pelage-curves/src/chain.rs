@@ -131,8 +131,9 @@ impl Chain {
     }
 
     /// Piece `index`, which is below [`pieces`](SpaceCurve::pieces).
+    #[inline]
     pub fn piece(&self, index: usize) -> Cubic {
-        let p = &self.points[3 * index..];
+        let p = &self.points[3 * index..][..4];
         Cubic([p[0], p[1], p[2], p[3]])
     }
 
@@ -161,6 +162,7 @@ impl SpaceCurve for Chain {
         self.points.len() / 3
     }
 
+    #[inline]
     fn at(&self, piece: usize, t: f64) -> [DVec3; 3] {
         let [position, first, second, _] = self.jet(piece, t);
         [position, first, second]
@@ -168,6 +170,7 @@ impl SpaceCurve for Chain {
 }
 
 impl Jet for Chain {
+    #[inline]
     fn jet(&self, piece: usize, t: f64) -> [DVec3; 4] {
         self.piece(piece).jet(t)
     }

@@ -47,9 +47,10 @@ impl Sample {
     pub fn along(curve: &impl SpaceCurve, segments: usize) -> Result<Vec<Self>, FrenetError> {
         let measure = Measure::new(curve)?;
         let segments = segments.max(1);
+        let mut span = 0;
         let sample = |i: usize| {
             let s = measure.total() * i as f64 / segments as f64;
-            let (piece, t) = measure.locate(curve, s);
+            let (piece, t) = measure.locate_next(curve, s, &mut span);
             let [position, first, second] = curve.at(piece, t);
             Self {
                 s,

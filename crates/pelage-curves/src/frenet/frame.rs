@@ -58,7 +58,12 @@ impl Frame {
 }
 
 /// `vector` as a unit vector, unless it is too small or too large to tell.
+#[inline]
 pub(crate) fn unit(vector: DVec3) -> Option<DVec3> {
+    let square = vector.length_squared();
+    if (1e-200..1e200).contains(&square) {
+        return Some(vector / square.sqrt());
+    }
     // Brings the square into range first: lengths may be 1e-200.
     let largest = vector.abs().max_element();
     let scaled = vector / largest;

@@ -16,13 +16,27 @@ pub trait SpaceCurve {
 
     /// Position, first and second derivative at `t` in 0..=1 of `piece`.
     fn at(&self, piece: usize, t: f64) -> [DVec3; 3];
+
+    /// The first derivative alone, where that is less work.
+    fn velocity(&self, piece: usize, t: f64) -> DVec3 {
+        self.at(piece, t)[1]
+    }
 }
 
 /// Arc length of a curve as a table.
 #[derive(Clone, Debug)]
 pub struct Measure {
-    /// Piece, parameter and arc length of where spans start; the end of all last.
-    spans: Vec<(usize, f64, f64)>,
+    spans: Vec<Span>,
+}
+
+/// A part of a piece that one quadrature measures; what it has two of belongs to its ends.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    piece: usize,
+    t: [f64; 2],
+    /// Arc length from the start of the curve.
+    s: [f64; 2],
+    speeds: [f64; 2],
 }
 
 /// How well a span's halves have to agree with it, as a part of its length. Halves are
@@ -39,17 +53,24 @@ impl Measure {
     ///
     /// [`FrenetError::NotFinite`] naming the piece whose length is no number.
     pub fn new(curve: &impl SpaceCurve) -> Result<Self, FrenetError> {
-        let mut spans = vec![(0, 0.0, 0.0)];
+        let mut spans = Vec::with_capacity(2 * curve.pieces());
         let mut total = 0.0;
         for piece in 0..curve.pieces() {
-            let velocity = |t: f64| curve.at(piece, t)[1];
+            let velocity = |t: f64| curve.velocity(piece, t);
             let whole = quadrature(&|t| length(velocity(t)), 0.0, 1.0);
             let least = whole * 1e-14;
-            let mut end = |t: f64, part: f64| {
+            let mut add = |t: [f64; 2], part: f64, speeds: [f64; 2]| {
+                let before = total;
                 total += part;
-                spans.push((piece, t, total));
+                spans.push(Span {
+                    piece,
+                    t,
+                    s: [before, total],
+                    speeds,
+                });
             };
-            halve(&velocity, [0.0, 1.0], whole, least, DEEPEST, &mut end);
+            let ends = [0.0, 1.0].map(|t| (t, velocity(t)));
+            halve(&velocity, ends, whole, least, DEEPEST, &mut add);
             if !total.is_finite() {
                 return Err(FrenetError::NotFinite { index: piece });
             }
@@ -59,36 +80,90 @@ impl Measure {
 
     /// Length of the curve.
     pub fn total(&self) -> f64 {
-        self.spans.last().map_or(0.0, |span| span.2)
+        self.spans.last().map_or(0.0, |span| span.s[1])
     }
 
     /// Piece of `curve`, the one measured, and parameter at arc length `s`, clamped to it.
     /// Where two pieces meet it is the second.
     pub fn locate(&self, curve: &impl SpaceCurve, s: f64) -> (usize, f64) {
-        let last = self.spans.len() - 1;
-        let after = self.spans.partition_point(|&(_, _, c)| c <= s);
-        if after > last {
-            return (self.spans[last].0, 1.0);
-        }
-        let ((from, start, before), (piece, end, upto)) =
-            (self.spans[after.max(1) - 1], self.spans[after.max(1)]);
-        let start = if from == piece { start } else { 0.0 };
-        let (target, speed) = (s - before, |t: f64| length(curve.at(piece, t)[1]));
-        let mut t = start + (end - start) * (target / (upto - before)).clamp(0.0, 1.0);
+        let number = self.spans.partition_point(|span| span.s[1] <= s);
+        self.locate_in(curve, s, number)
+    }
+
+    /// [`locate`](Self::locate) for arc lengths that ascend: `before` is the span of the last
+    /// one, 0 at first, and becomes that of this one.
+    pub(super) fn locate_next(
+        &self,
+        curve: &impl SpaceCurve,
+        s: f64,
+        before: &mut usize,
+    ) -> (usize, f64) {
+        let later = self.spans[*before..].iter();
+        *before += later.take_while(|span| span.s[1] <= s).count();
+        self.locate_in(curve, s, *before)
+    }
+
+    /// Where `s` is in span `number`, the end of the curve if there is none.
+    fn locate_in(&self, curve: &impl SpaceCurve, s: f64, number: usize) -> (usize, f64) {
+        let Some(span) = self.spans.get(number) else {
+            return (self.spans[self.spans.len() - 1].piece, 1.0);
+        };
+        let (piece, [start, end]) = (span.piece, span.t);
+        let target = (s - span.s[0]).max(0.0);
+        let speed = |t: f64| length(curve.velocity(piece, t));
+        let mut t = span.guess(target);
         for _ in 0..12 {
             let miss = quadrature(&speed, start, t) - target;
-            let here = speed(t);
+            let [_, first, second] = curve.at(piece, t);
+            let here = length(first);
             if here <= 0.0 || miss.abs() <= 1e-15 * self.total() {
                 break;
             }
-            t = (t - miss / here).clamp(start, end);
+            let step = miss / here;
+            // By how much the speed differs over the step, as a part of it.
+            let change = (first / here).dot(second / here) * step;
+            let small = change.abs() <= NEAR;
+            // Where it differs little, a step that knows of it ends a cube of it off.
+            let step = if small {
+                step * (1.0 + change / 2.0)
+            } else {
+                step
+            };
+            t = (t - step).clamp(start, end);
+            if small && step.abs() <= NEAR * (end - start) {
+                break;
+            }
         }
         (piece, t)
     }
 }
 
+/// Steps shorter than this part of a span need no other after them: their cube is far below
+/// what arc length is known to.
+const NEAR: f64 = 1e-4;
+
+impl Span {
+    /// Where the arc length `target` from the start of the span is about: by the cubic that
+    /// has the speeds at both ends.
+    fn guess(&self, target: f64) -> f64 {
+        let ([start, end], length) = (self.t, self.s[1] - self.s[0]);
+        let x = (target / length).clamp(0.0, 1.0);
+        // Slopes up to 3 leave a cubic ascending; a NaN is none.
+        let slopes = self
+            .speeds
+            .map(|speed| (length / (speed * (end - start))).min(3.0));
+        let [m, n] = slopes.map(|slope| slope - 1.0);
+        start + (end - start) * (x + x * (1.0 - x) * (m * (1.0 - x) - n * x))
+    }
+}
+
 /// Length of a vector, also of one whose square is out of range.
+#[inline]
 fn length(vector: DVec3) -> f64 {
+    let square = vector.length_squared();
+    if (1e-200..1e200).contains(&square) {
+        return square.sqrt();
+    }
     let largest = vector.abs().max_element();
     match largest > 0.0 && largest.is_finite() {
         true => (vector / largest).length() * largest,
@@ -96,28 +171,31 @@ fn length(vector: DVec3) -> f64 {
     }
 }
 
-/// Tells `end` the parameter and length of the parts of a span that need no halving.
+/// Tells `add` the ends, the length and the speeds at the ends of the parts of a span that
+/// need no halving; `a` and `b` are its ends with their velocities.
 fn halve(
     velocity: &impl Fn(f64) -> DVec3,
-    [a, b]: [f64; 2],
+    [a, b]: [(f64, DVec3); 2],
     whole: f64,
     least: f64,
     depth: u32,
-    end: &mut impl FnMut(f64, f64),
+    add: &mut impl FnMut([f64; 2], f64, [f64; 2]),
 ) {
     let speed = |t: f64| length(velocity(t));
-    let middle = (a + b) / 2.0;
-    let halves = [quadrature(&speed, a, middle), quadrature(&speed, middle, b)];
+    let middle = (a.0 + b.0) / 2.0;
+    let middle = (middle, velocity(middle));
+    let parts = [[a, middle], [middle, b]];
+    let halves = parts.map(|[a, b]| quadrature(&speed, a.0, b.0));
     let both = halves[0] + halves[1];
     let agree = (both - whole).abs() <= (ACCURACY * both).max(least);
-    let done = agree && !turns_back([a, middle, b].map(velocity));
-    if done || depth == 0 || !both.is_finite() {
-        end(middle, halves[0]);
-        end(b, halves[1]);
-        return;
+    let done = agree && !turns_back([a.1, middle.1, b.1]);
+    for (part, half) in parts.into_iter().zip(halves) {
+        if done || depth == 0 || !both.is_finite() {
+            add(part.map(|(t, _)| t), half, part.map(|(_, v)| length(v)));
+        } else {
+            halve(velocity, part, half, least, depth - 1, add);
+        }
     }
-    halve(velocity, [a, middle], halves[0], least, depth - 1, end);
-    halve(velocity, [middle, b], halves[1], least, depth - 1, end);
 }
 
 /// Whether a curve goes back between neighbours of three places: where it does, on a line,
@@ -179,10 +257,10 @@ mod tests {
             let s = measure.total() * i as f64 / 200.0;
             let (piece, t) = measure.locate(&curve, s);
             let speed = |t: f64| length(curve.at(piece, t)[1]);
-            let start = measure.spans.iter().rev().find(|x| x.0 < piece);
+            let start = measure.spans.iter().rev().find(|x| x.piece < piece);
             let parts = (0..64).map(|k| k as f64 / 64.0 * t);
             let inside: f64 = parts.map(|a| quadrature(&speed, a, a + t / 64.0)).sum();
-            let found = start.map_or(0.0, |x| x.2) + inside;
+            let found = start.map_or(0.0, |x| x.s[1]) + inside;
             assert!((found - s).abs() < 1e-10, "{s} came back as {found}");
         }
     }
