@@ -29,14 +29,17 @@ pub struct Measure {
     spans: Vec<Span>,
 }
 
-/// A part of a piece that one quadrature measures; what it has two of belongs to its ends.
+/// A part of a piece that one quadrature measures. It starts where the one before it ends,
+/// or with its piece.
 #[derive(Clone, Copy, Debug)]
 struct Span {
     piece: usize,
-    t: [f64; 2],
-    /// Arc length from the start of the curve.
-    s: [f64; 2],
-    speeds: [f64; 2],
+    /// Parameter at its end.
+    end: f64,
+    /// Arc length from the start of the curve to its end.
+    upto: f64,
+    /// At both ends. They only lead to a guess.
+    speeds: [f32; 2],
 }
 
 /// How well a span's halves have to agree with it, as a part of its length. Halves are
@@ -59,14 +62,13 @@ impl Measure {
             let velocity = |t: f64| curve.velocity(piece, t);
             let whole = quadrature(&|t| length(velocity(t)), 0.0, 1.0);
             let least = whole * 1e-14;
-            let mut add = |t: [f64; 2], part: f64, speeds: [f64; 2]| {
-                let before = total;
+            let mut add = |end: f64, part: f64, speeds: [f64; 2]| {
                 total += part;
                 spans.push(Span {
                     piece,
-                    t,
-                    s: [before, total],
-                    speeds,
+                    end,
+                    upto: total,
+                    speeds: speeds.map(|speed| speed as f32),
                 });
             };
             let ends = [0.0, 1.0].map(|t| (t, velocity(t)));
@@ -80,13 +82,13 @@ impl Measure {
 
     /// Length of the curve.
     pub fn total(&self) -> f64 {
-        self.spans.last().map_or(0.0, |span| span.s[1])
+        self.spans.last().map_or(0.0, |span| span.upto)
     }
 
     /// Piece of `curve`, the one measured, and parameter at arc length `s`, clamped to it.
     /// Where two pieces meet it is the second.
     pub fn locate(&self, curve: &impl SpaceCurve, s: f64) -> (usize, f64) {
-        let number = self.spans.partition_point(|span| span.s[1] <= s);
+        let number = self.spans.partition_point(|span| span.upto <= s);
         self.locate_in(curve, s, number)
     }
 
@@ -99,7 +101,7 @@ impl Measure {
         before: &mut usize,
     ) -> (usize, f64) {
         let later = self.spans[*before..].iter();
-        *before += later.take_while(|span| span.s[1] <= s).count();
+        *before += later.take_while(|span| span.upto <= s).count();
         self.locate_in(curve, s, *before)
     }
 
@@ -108,10 +110,15 @@ impl Measure {
         let Some(span) = self.spans.get(number) else {
             return (self.spans[self.spans.len() - 1].piece, 1.0);
         };
-        let (piece, [start, end]) = (span.piece, span.t);
-        let target = (s - span.s[0]).max(0.0);
+        let (piece, end) = (span.piece, span.end);
+        let last = number.checked_sub(1).map(|before| self.spans[before]);
+        let before = last.map_or(0.0, |last| last.upto);
+        let start = last
+            .filter(|last| last.piece == piece)
+            .map_or(0.0, |last| last.end);
+        let target = (s - before).max(0.0);
         let speed = |t: f64| length(curve.velocity(piece, t));
-        let mut t = span.guess(target);
+        let mut t = span.guess(start, target, span.upto - before);
         for _ in 0..12 {
             let miss = quadrature(&speed, start, t) - target;
             let [_, first, second] = curve.at(piece, t);
@@ -143,17 +150,14 @@ impl Measure {
 const NEAR: f64 = 1e-4;
 
 impl Span {
-    /// Where the arc length `target` from the start of the span is about: by the cubic that
-    /// has the speeds at both ends.
-    fn guess(&self, target: f64) -> f64 {
-        let ([start, end], length) = (self.t, self.s[1] - self.s[0]);
-        let x = (target / length).clamp(0.0, 1.0);
+    /// Where the arc length `target` of `length` from `start` of the span is about: by the
+    /// cubic that has the speeds at both ends.
+    fn guess(&self, start: f64, target: f64, length: f64) -> f64 {
+        let (x, whole) = ((target / length).clamp(0.0, 1.0), self.end - start);
         // Slopes up to 3 leave a cubic ascending; a NaN is none.
-        let slopes = self
-            .speeds
-            .map(|speed| (length / (speed * (end - start))).min(3.0));
-        let [m, n] = slopes.map(|slope| slope - 1.0);
-        start + (end - start) * (x + x * (1.0 - x) * (m * (1.0 - x) - n * x))
+        let slope = |speed: f32| (length / (f64::from(speed) * whole)).min(3.0);
+        let [m, n] = self.speeds.map(|speed| slope(speed) - 1.0);
+        start + whole * (x + x * (1.0 - x) * (m * (1.0 - x) - n * x))
     }
 }
 
@@ -171,7 +175,7 @@ fn length(vector: DVec3) -> f64 {
     }
 }
 
-/// Tells `add` the ends, the length and the speeds at the ends of the parts of a span that
+/// Tells `add` the end, the length and the speeds at both ends of the parts of a span that
 /// need no halving; `a` and `b` are its ends with their velocities.
 fn halve(
     velocity: &impl Fn(f64) -> DVec3,
@@ -179,7 +183,7 @@ fn halve(
     whole: f64,
     least: f64,
     depth: u32,
-    add: &mut impl FnMut([f64; 2], f64, [f64; 2]),
+    add: &mut impl FnMut(f64, f64, [f64; 2]),
 ) {
     let speed = |t: f64| length(velocity(t));
     let middle = (a.0 + b.0) / 2.0;
@@ -191,7 +195,7 @@ fn halve(
     let done = agree && !turns_back([a.1, middle.1, b.1]);
     for (part, half) in parts.into_iter().zip(halves) {
         if done || depth == 0 || !both.is_finite() {
-            add(part.map(|(t, _)| t), half, part.map(|(_, v)| length(v)));
+            add(part[1].0, half, part.map(|(_, v)| length(v)));
         } else {
             halve(velocity, part, half, least, depth - 1, add);
         }
@@ -260,7 +264,7 @@ mod tests {
             let start = measure.spans.iter().rev().find(|x| x.piece < piece);
             let parts = (0..64).map(|k| k as f64 / 64.0 * t);
             let inside: f64 = parts.map(|a| quadrature(&speed, a, a + t / 64.0)).sum();
-            let found = start.map_or(0.0, |x| x.s[1]) + inside;
+            let found = start.map_or(0.0, |x| x.upto) + inside;
             assert!((found - s).abs() < 1e-10, "{s} came back as {found}");
         }
     }

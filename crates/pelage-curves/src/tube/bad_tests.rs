@@ -1,8 +1,8 @@
 //! What makes no section and no tube.
 
 use super::*;
-use crate::Chain;
-use crate::frenet::FrenetError;
+use crate::frenet::{Apparatus, FrenetError};
+use crate::{Chain, Nurbs};
 use glam::DVec2;
 
 fn even(parts: usize) -> Tube {
@@ -97,4 +97,27 @@ fn tubes_that_are_none_are_told() {
         found,
         Some(TubeError::Curve(FrenetError::NotFinite { index: 0 }))
     );
+}
+
+/// Run it by `cargo nextest run --release -p pelage-curves --run-ignored only`.
+#[test]
+#[ignore = "takes half a minute and 4 GB"]
+fn curves_of_ten_million_vertices_are_taken_apart_and_swept() {
+    let at = |i: usize| {
+        let angle = 0.1 * i as f64;
+        DVec3::new(libm::cos(angle), libm::sin(angle), 0.01 * angle)
+    };
+    let points: Vec<DVec3> = (0..10_000_000).map(at).collect();
+    let chain = Chain::catmull_rom(&points, 0.5).unwrap();
+    let nurbs = Nurbs::clamped(3, &points).unwrap();
+    drop(points);
+    let section = Section::circle(3).unwrap();
+    let mesh = even(1000).sweep(&chain, &section, |_| 0.1).unwrap();
+    assert!(mesh.positions.len() > 3000);
+    assert!(mesh.positions.iter().all(|p| p.is_finite()));
+    for apparatus in [Apparatus::of(&chain, 999), Apparatus::of(&nurbs, 999)] {
+        let length = apparatus.unwrap().length();
+        // A B-spline stays inside the helix of its points.
+        assert!((length / 1.0e6 - 1.0).abs() < 2e-3, "{length}");
+    }
 }
