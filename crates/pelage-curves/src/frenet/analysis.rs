@@ -139,7 +139,14 @@ fn frames(samples: &[Sample]) -> Vec<Frame> {
         .iter()
         .zip(normals)
         .map(|(&tangent, normal)| {
-            let frame = Frame::new(tangent, normal.unwrap_or(before.normal));
+            let frame = match normal {
+                Some(normal) => Frame {
+                    tangent,
+                    normal,
+                    binormal: tangent.cross(normal),
+                },
+                None => Frame::new(tangent, before.normal),
+            };
             before = match frame.binormal.dot(before.binormal) < 0.0 {
                 true => frame.turned_round(),
                 false => frame,
