@@ -58,8 +58,9 @@ fn every_form_is_read_as_the_curves_that_it_decodes_to_whatever_its_name() {
         let path = folder.path().join("fit.".to_owned() + extension);
         write_super_helices(&path, &written, &WriteOptions::default()).unwrap();
         let other = folder.path().join(match extension {
-            "npz" => "other.npz",
-            _ => "other.curves",
+            "json" => "other.curves",
+            "usdc" => "other.usd",
+            _ => "other.npz",
         });
         std::fs::rename(&path, &other).unwrap();
         let file = crate::read_curves(&other, None).unwrap();

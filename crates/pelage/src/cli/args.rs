@@ -165,7 +165,7 @@ pub struct FitArgs {
     /// A file of curves: USD, .npz, .hair or OBJ polylines. With --decode, one of fits.
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
-    /// The fits: .json, .npz (a third of the bytes), or .usdc (with the decoded curves
+    /// The fits: .json, .npz (the smallest), or .usdc (with the decoded curves
     /// beside the numbers). With --decode, the curves: .usdc, .usda, .npz or .rib.
     #[arg(long, short, value_hint = ValueHint::FilePath, value_name = "FILE")]
     pub output: PathBuf,

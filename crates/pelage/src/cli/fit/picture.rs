@@ -12,7 +12,7 @@ use pelage::StrandBuffer;
 use pelage::curves::frenet::{CatmullRom, Measure, SpaceCurve};
 use pelage::curves::{DVec3, Vec3};
 use pelage::io::SuperHelices;
-use pelage::render::{Picture, Reflection, Scene, Settings, render};
+use pelage::render::{Backdrop, Fiber, Picture, Reflection, Scene, Settings, render};
 use pelage::strands::{Bounds, UpAxis};
 use std::path::Path;
 use std::time::Instant;
@@ -24,11 +24,15 @@ const FIT: [f32; 3] = [0.10, 0.35, 0.75];
 /// Colours of no error, of half the bound, and of the bound and more.
 const HEAT: [[f32; 3]; 3] = [[0.03, 0.10, 0.60], [0.95, 0.80, 0.10], [0.85, 0.03, 0.02]];
 
+/// Colours are to be told apart: nothing shines, bleaches or is bright behind them.
+const BEHIND: [f32; 3] = [0.012; 3];
+const EXPOSURE: f32 = -0.5;
+
 /// Vertices of a strand in the picture: enough that it is as round as it is.
 const VERTICES: u32 = 128;
 
 /// Width of a strand, as a part of the diagonal of all.
-const WIDTH: f32 = 1.0 / 700.0;
+const WIDTH: f32 = 1.0 / 450.0;
 
 /// Draws the picture into the PNG at `path`.
 #[expect(
@@ -61,6 +65,13 @@ pub fn draw(
         samples: args.camera.samples.unwrap_or(Settings::default().samples),
         threads: (args.threads > 0).then_some(args.threads),
         reflection: Reflection::KajiyaKay,
+        fiber: Fiber {
+            gloss: 0.0,
+            ..Fiber::default()
+        },
+        backdrop: Backdrop::Plain(BEHIND),
+        exposure: EXPOSURE,
+        film_tone: false,
         ..Settings::default()
     };
     // One camera, that of the target: what differs in the pictures is the curves.
