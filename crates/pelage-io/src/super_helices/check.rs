@@ -125,11 +125,21 @@ impl SuperHelices {
             let message = format!("it is {error}, where 0 or more belongs");
             return Err(wrong(at("error"), message));
         }
-        if !self.elements(strand).is_empty() && self.curve(strand).is_none() {
+        if self.elements(strand).is_empty() {
+            return Ok(());
+        }
+        let Some(curve) = self.curve(strand) else {
             let message = "lengths are 0 or more, all numbers finite, and length times \
                            curvature 1e12 at most";
             return Err(wrong(at("elements"), message));
+        };
+        let reach = curve.root().position.abs().max_element() + curve.length();
+        match reach <= f64::from(f32::MAX) {
+            true => Ok(()),
+            false => Err(wrong(
+                at("length"),
+                "it leads to where 32 bits do not count",
+            )),
         }
-        Ok(())
     }
 }

@@ -51,8 +51,10 @@ pub fn run(args: &FitArgs, say: &Say) -> Result<ExitCode> {
     for (index, fitted) in fitted.iter().enumerate() {
         fitted.push(&mut helices, strands.strand_points(index), index)?;
     }
+    // It may be the file that is written.
+    let before = report::size(&args.file);
     write_super_helices(&args.output, &helices, &options(false))?;
-    let report = Report::new(args, &wish, &strands, &helices, &fitted);
+    let report = Report::new(args, &wish, &strands, &helices, &fitted, before);
     report.say(say, started.elapsed());
     if let Some(path) = &args.picture {
         let up = file.up_axis.unwrap_or_default();

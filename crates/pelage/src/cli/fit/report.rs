@@ -31,6 +31,8 @@ pub struct Report<'a> {
     pub missed: Vec<usize>,
     /// Whether the strands had more than their shape.
     sheds: bool,
+    /// Bytes of the file of curves.
+    bytes_before: u64,
 }
 
 impl<'a> Report<'a> {
@@ -40,6 +42,7 @@ impl<'a> Report<'a> {
         strands: &StrandBuffer,
         helices: &SuperHelices,
         fitted: &[Fitted],
+        bytes_before: u64,
     ) -> Self {
         let mut report = Self {
             args,
@@ -58,6 +61,7 @@ impl<'a> Report<'a> {
                 && strands.hair_id.is_empty()
                 && strands.root_uv.is_empty()
                 && strands.group.is_empty()),
+            bytes_before,
         };
         for (index, fitted) in fitted.iter().enumerate() {
             match fitted {
@@ -94,7 +98,6 @@ impl<'a> Report<'a> {
     /// Says everything.
     pub fn say(&self, say: &Say, time: Duration) {
         let (before, after) = (3 * self.vertices as u64, self.numbers);
-        let size = |path: &Path| std::fs::metadata(path).map_or(0, |m| m.len());
         say.line(format_args!(
             "{}: {} strands, {} elements, {:.1} a strand ({})",
             self.args.output.display(),
@@ -111,7 +114,7 @@ impl<'a> Report<'a> {
         ));
         say.line(format_args!(
             "  file     {} became {}",
-            bytes(size(&self.args.file)),
+            bytes(self.bytes_before),
             bytes(size(&self.args.output))
         ));
         say.line(format_args!(
@@ -158,6 +161,11 @@ impl<'a> Report<'a> {
             named.join(", ")
         )
     }
+}
+
+/// Bytes of a file, 0 where there is none.
+pub fn size(path: &Path) -> u64 {
+    std::fs::metadata(path).map_or(0, |m| m.len())
 }
 
 /// A part in percent, to three digits.
