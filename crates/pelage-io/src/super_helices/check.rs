@@ -106,18 +106,18 @@ impl SuperHelices {
         let at = |name: &str| format!("{name} of strand {strand}");
         let [tangent, normal] = [self.tangents[strand], self.normals[strand]].map(wide);
         let error = self.errors[strand];
-        let off = |length: f64, expected: f64| !((length - expected).abs() <= SLACK);
+        let near = |found: f64, expected: f64| (found - expected).abs() <= SLACK;
         if !self.roots[strand].iter().all(|x| x.is_finite()) {
             return Err(wrong(at("root"), "not a finite number"));
         }
-        if off(tangent.length(), 1.0) {
+        if !near(tangent.length(), 1.0) {
             let message = format!(
                 "it is {} long; a unit vector belongs here",
                 tangent.length()
             );
             return Err(wrong(at("tangent"), message));
         }
-        if off(normal.length(), 1.0) || off(normal.dot(tangent), 0.0) {
+        if !(near(normal.length(), 1.0) && near(normal.dot(tangent), 0.0)) {
             let message = "a unit vector perpendicular to the tangent belongs here";
             return Err(wrong(at("normal"), message));
         }
