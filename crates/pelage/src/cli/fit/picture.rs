@@ -82,7 +82,7 @@ pub fn draw(
     for (i, panel) in panels.iter().enumerate() {
         let scene = Scene::of_strands(panel);
         pictures.push(render(&scene, &camera, &settings, |part| {
-            bar.set(((i as f32 + part as f32) * 100.0) as u64);
+            bar.set(((i as f32 + part) * 100.0) as u64);
         })?);
     }
     drop(bar);

@@ -172,7 +172,7 @@ pub fn size(path: &Path) -> u64 {
 fn percent(part: f64) -> String {
     let percent = 100.0 * part;
     match percent {
-        p if p == 0.0 => "0 %".into(),
+        0.0 => "0 %".into(),
         p if p < 0.001 => format!("{p:.1e} %"),
         p if p < 1.0 => format!("{p:.4} %"),
         p => format!("{p:.3} %"),
