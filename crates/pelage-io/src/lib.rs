@@ -38,6 +38,7 @@ mod source;
 mod spool;
 mod stored_zip;
 mod strands_of;
+mod super_helices;
 mod text_array;
 mod text_numbers;
 mod usd;
@@ -63,6 +64,10 @@ pub use ply_points::PlyRootsWriter;
 pub use read::{FileKind, MeshFile, mesh_frames, read_curves, read_mesh, sniff};
 pub use rib::RibWriter;
 pub use strands_of::strands_through_vertices;
+pub use super_helices::{
+    SUPER_HELIX_EXTENSIONS, SuperHelices, parse_super_helices, read_super_helices,
+    write_super_helices,
+};
 pub use usd::{read_usd_curves, read_usd_mesh, usd_mesh_frames};
 pub use usda::UsdaWriter;
 pub use usdc::UsdcWriter;

@@ -1,8 +1,11 @@
 //! Reads whatever a file holds, by what it starts with and by its extension.
 
 use crate::source::open_file;
+use crate::super_helices::{curve_file, is_json};
 use crate::{CurveFile, ReadError, read_npz_curves, usd};
-use crate::{read_gltf_mesh, read_hair, read_obj_curves, read_obj_mesh, read_ply_mesh};
+use crate::{
+    read_gltf_mesh, read_hair, read_obj_curves, read_obj_mesh, read_ply_mesh, read_super_helices,
+};
 use pelage_strands::UpAxis;
 use pelage_surface::PolygonMesh;
 use std::fmt;
@@ -35,17 +38,20 @@ pub enum FileKind {
     Hair,
     /// NumPy archive: curves.
     Npz,
+    /// Super-Helices as JSON: the curves that they decode to.
+    SuperHelices,
 }
 
 impl FileKind {
     /// All formats.
-    pub const ALL: [FileKind; 6] = [
+    pub const ALL: [FileKind; 7] = [
         FileKind::Usd,
         FileKind::Obj,
         FileKind::Ply,
         FileKind::Gltf,
         FileKind::Hair,
         FileKind::Npz,
+        FileKind::SuperHelices,
     ];
 
     /// Extensions, lower case, without the dot.
@@ -57,6 +63,7 @@ impl FileKind {
             FileKind::Gltf => &["gltf", "glb"],
             FileKind::Hair => &["hair"],
             FileKind::Npz => &["npz"],
+            FileKind::SuperHelices => &["json"],
         }
     }
 
@@ -72,7 +79,7 @@ impl FileKind {
     pub fn has_curves(self) -> bool {
         matches!(
             self,
-            FileKind::Usd | FileKind::Obj | FileKind::Hair | FileKind::Npz
+            FileKind::Usd | FileKind::Obj | FileKind::Hair | FileKind::Npz | FileKind::SuperHelices
         )
     }
 
@@ -92,7 +99,8 @@ impl FileKind {
             (b"HAIR", FileKind::Hair),
         ];
         let found = magics.iter().find(|(magic, _)| start.starts_with(magic));
-        found.map(|(_, kind)| *kind)
+        let found = found.map(|(_, kind)| *kind);
+        found.or_else(|| is_json(start).then_some(FileKind::SuperHelices))
     }
 }
 
@@ -105,9 +113,13 @@ impl fmt::Display for FileKind {
             FileKind::Gltf => "glTF",
             FileKind::Hair => "hair file",
             FileKind::Npz => "NumPy archive",
+            FileKind::SuperHelices => "Super-Helices",
         })
     }
 }
+
+/// Bytes at the start of a file that may tell what it is.
+const START: u64 = 64;
 
 /// The format of `path`: by its first bytes where they tell, else by its extension.
 pub fn sniff(path: &Path) -> Result<FileKind, ReadError> {
@@ -154,6 +166,7 @@ pub fn read_curves(path: &Path, time: Option<f64>) -> Result<CurveFile, ReadErro
         FileKind::Obj => read_obj_curves(path),
         FileKind::Hair => read_hair(path),
         FileKind::Npz => read_npz_curves(path, time),
+        FileKind::SuperHelices => Ok(curve_file(path, &read_super_helices(path)?)),
         kind => Err(without(path, kind, "curves", FileKind::has_curves)),
     }
 }
@@ -161,7 +174,7 @@ pub fn read_curves(path: &Path, time: Option<f64>) -> Result<CurveFile, ReadErro
 /// As [`sniff`]; errors list the formats that are `wanted`.
 fn sniff_for(path: &Path, wanted: impl Fn(FileKind) -> bool) -> Result<FileKind, ReadError> {
     let mut start = Vec::new();
-    let mut file = open_file(path)?.take(16);
+    let mut file = open_file(path)?.take(START);
     let read = file.read_to_end(&mut start);
     read.map_err(|error| ReadError::world(path, &error))?;
     let extension = path.extension().map(|e| e.to_string_lossy().into_owned());

@@ -23,6 +23,9 @@ const READERS: &[(&str, Reader)] = &[
         pelage_io::read_obj_curves(path).map(drop)
     }),
     ("ply", |path| pelage_io::read_ply_mesh(path).map(drop)),
+    ("super_helices", |path| {
+        pelage_io::read_super_helices(path).map(|strands| drop(strands.decode(None)))
+    }),
 ];
 
 /// Folders tried by `bad_usd.rs`: scenes are read around what is wrong in them.

@@ -29,6 +29,16 @@ const PARSERS: &[(&str, Parser)] = &[
     ("ply", |bytes, path| {
         let _ = pelage_io::parse_ply_mesh(bytes, path);
     }),
+    ("super_helices", |bytes, path| {
+        let strands = pelage_io::parse_super_helices(bytes, path);
+        // A digit more may be a million vertices more.
+        let few = strands
+            .ok()
+            .filter(|s| s.vertices.iter().all(|n| *n < 10_000));
+        let decoded = few.map(|strands| strands.decode(None));
+        let finite = |p: &[f32; 3]| p.iter().all(|x| x.is_finite());
+        assert!(decoded.is_none_or(|strands| strands.points.iter().all(finite)));
+    }),
 ];
 
 fn seeds() -> Vec<(PathBuf, Vec<u8>, Parser)> {
@@ -55,6 +65,7 @@ fn every_seed_is_sound() {
             "hair" => pelage_io::parse_hair(&bytes, &path).map(drop),
             "image" => pelage_io::parse_image(&bytes, &path).map(drop),
             "ply" => pelage_io::parse_ply_mesh(&bytes, &path).map(drop),
+            "super_helices" => pelage_io::parse_super_helices(&bytes, &path).map(drop),
             _ => pelage_io::parse_obj_mesh(&bytes, &path)
                 .map(drop)
                 .or_else(|_| pelage_io::parse_obj_curves(&bytes, &path).map(drop)),

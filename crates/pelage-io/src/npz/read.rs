@@ -6,10 +6,14 @@
 //! `triangle`, `barycentric` (m × 3), `root_rest` (m × 3) one entry a curve. Real
 //! numbers are of 32 or 64 bits, integers too, signed or not. `points` and `normals`
 //! may have a leading axis of frames, whose times are in `frames`.
+//!
+//! Archives with the arrays of Super-Helices (`docs/super-helices.md`) are read as the
+//! curves that they decode to.
 
 use super::frames;
 use crate::layout::Layout;
 use crate::source::read_bytes;
+use crate::super_helices::{Arrays, SuperHelices, TELLING, Wrong, curve_file};
 use crate::{AttributeInfo, CurveFile, CurveSet, ReadError};
 use npyz::npz::NpzArchive;
 use npyz::{NpyFile, Order};
@@ -53,13 +57,10 @@ pub(super) enum Numbers {
 /// arrays that do not fit are left out and listed in
 /// [`CurveSet::faults`](crate::CurveSet::faults).
 pub fn read_npz_curves(path: &Path, time: Option<f64>) -> Result<CurveFile, ReadError> {
-    let bytes = read_bytes(path)?;
-    // The archive reader is old and indexes what it reads; sizes are checked here.
-    let arrays = catch_unwind(|| read_arrays(path, &bytes)).unwrap_or_else(|_| {
-        let message = "it is no sound zip archive";
-        Err(ReadError::file(path, message))
-    })?;
-    let mut arrays = arrays;
+    let mut arrays = arrays_of(path)?;
+    if arrays.contains_key(TELLING) {
+        return Ok(curve_file(path, &of_arrays(path, arrays)?));
+    }
     let frames = frames::cut_to(&mut arrays, time).map_err(|m| ReadError::file(path, m))?;
     let name = path.file_stem().map(|n| n.to_string_lossy().into_owned());
     let mut set = assemble(path, name.unwrap_or_default(), arrays)?;
@@ -68,6 +69,68 @@ pub fn read_npz_curves(path: &Path, time: Option<f64>) -> Result<CurveFile, Read
         sets: vec![set],
         up_axis: None,
         meters_per_unit: None,
+    })
+}
+
+/// Reads the Super-Helices of the archive `path`.
+pub(crate) fn read_super_helices(path: &Path) -> Result<SuperHelices, ReadError> {
+    of_arrays(path, arrays_of(path)?)
+}
+
+fn of_arrays(path: &Path, arrays: BTreeMap<String, Array>) -> Result<SuperHelices, ReadError> {
+    let faults = Vec::new();
+    let assembly = Assembly { arrays, faults };
+    SuperHelices::of_arrays(&mut Parameters { path, assembly })
+}
+
+/// The archive's arrays as those of Super-Helices.
+struct Parameters<'a> {
+    path: &'a Path,
+    assembly: Assembly,
+}
+
+impl Parameters<'_> {
+    fn taken<T>(&self, name: &str, read: Result<T, String>) -> Result<T, ReadError> {
+        read.map_err(|message| match message.is_empty() {
+            true => ReadError::file(self.path, format!("it has no array {name}"))
+                .help("its arrays are not those of Super-Helices"),
+            false => ReadError::file(self.path, message),
+        })
+    }
+}
+
+impl Arrays for Parameters<'_> {
+    type Error = ReadError;
+
+    fn counts(&mut self, name: &str) -> Result<Vec<u32>, ReadError> {
+        let read = self.assembly.integers(name).and_then(|all| {
+            let narrow: Option<Vec<u32>> = all.iter().map(|&n| u32::try_from(n).ok()).collect();
+            narrow.ok_or_else(|| format!("{name} has entries that do not fit in 32 bits"))
+        });
+        self.taken(name, read)
+    }
+
+    fn vectors(&mut self, name: &str) -> Result<Vec<[f32; 3]>, ReadError> {
+        let read = self.assembly.reals::<3>(name);
+        self.taken(name, read)
+    }
+
+    fn numbers(&mut self, name: &str) -> Result<Vec<f32>, ReadError> {
+        let read = self.assembly.reals::<1>(name);
+        Ok(self.taken(name, read)?.into_iter().flatten().collect())
+    }
+
+    fn wrong(&self, Wrong { place, message }: Wrong) -> ReadError {
+        ReadError::file(self.path, message).at(place)
+    }
+}
+
+fn arrays_of(path: &Path) -> Result<BTreeMap<String, Array>, ReadError> {
+    let bytes = read_bytes(path)?;
+    // The archive reader is old and indexes what it reads; sizes are checked here.
+    catch_unwind(|| read_arrays(path, &bytes)).unwrap_or_else(|_| {
+        let message = "it is no sound zip archive";
+        Err(ReadError::file(path, message))
     })
 }
 

@@ -177,7 +177,7 @@ fn type_name(scalar: Scalar) -> &'static str {
 const NPY_HEADER_BYTES: usize = 128;
 
 /// Header of a `.npy` file, format 1.0, of an array in row-major order.
-fn npy_header(type_name: &str, shape: &[u64]) -> Vec<u8> {
+pub(crate) fn npy_header(type_name: &str, shape: &[u64]) -> Vec<u8> {
     let mut sizes: Vec<String> = shape.iter().map(u64::to_string).collect();
     if sizes.len() == 1 {
         // A Python tuple of one.

@@ -16,6 +16,7 @@ mod kind;
 mod mesh;
 mod names;
 mod stage;
+mod super_helices;
 mod text_guard;
 mod text_tokens;
 mod text_tuples;
@@ -23,6 +24,7 @@ mod values;
 mod xform;
 
 pub(crate) use curves::{CurvesWithExtent, Extent, read_curves_with_extents};
+pub(crate) use super_helices::read_super_helices;
 
 use crate::{CurveFile, MeshFile, ReadError};
 use openusd::sdf;

@@ -4,8 +4,8 @@ use super::sections::{Sections, SpecKind};
 use super::value::{Kind, ValueRep};
 
 /// An attribute whose values are in the file.
-pub(super) struct Written {
-    pub(super) name: &'static str,
+pub(super) struct Written<'a> {
+    pub(super) name: &'a str,
     pub(super) kind: &'static str,
     pub(super) uniform: bool,
     pub(super) interpolation: Option<&'static str>,
@@ -17,9 +17,9 @@ pub(super) enum Value {
     Samples(ValueRep),
 }
 
-impl Written {
+impl<'a> Written<'a> {
     /// One that may vary and whose schema says where its values belong.
-    pub(super) fn plain(name: &'static str, kind: &'static str, value: Value) -> Self {
+    pub(super) fn plain(name: &'a str, kind: &'static str, value: Value) -> Self {
         Self {
             name,
             kind,

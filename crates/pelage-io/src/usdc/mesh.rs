@@ -42,7 +42,7 @@ fn attributes(
     file: &mut CrateFile,
     sections: &mut Sections,
     mesh: &Triangles,
-) -> io::Result<Vec<Written>> {
+) -> io::Result<Vec<Written<'static>>> {
     let mut array = |kind, count: usize, raw: &[u8]| -> io::Result<Value> {
         Ok(Value::Still(file.array(kind, count as u64, raw)?))
     };

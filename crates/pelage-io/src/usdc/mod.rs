@@ -27,3 +27,4 @@ mod writer;
 
 pub(crate) use mesh::write_mesh;
 pub use writer::UsdcWriter;
+pub(crate) use writer::{Beside, write_with};

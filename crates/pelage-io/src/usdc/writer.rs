@@ -8,6 +8,7 @@ use crate::columns::{Column, Content, Field, Scalar};
 use crate::file_sink::{Stream, file_sink};
 use crate::hair_prim::{self, attribute};
 use crate::recorder::Recorder;
+use crate::super_helices::{Entries, type_name};
 use crate::write::WriteOptions;
 use pelage_strands::{Amount, Bounds, StrandBuffer, StreamInfo};
 use std::io;
@@ -74,6 +75,13 @@ impl Stream for Usdc {
     }
 
     fn finish(self) -> io::Result<()> {
+        self.finish_with(&[])
+    }
+}
+
+impl Usdc {
+    /// Gives the file its name, with arrays beside those of the hair.
+    fn finish_with(self, beside: &[Beside]) -> io::Result<()> {
         let recorded = self.recorder.finish()?;
         let mut layer = Layer {
             file: self.file,
@@ -82,8 +90,30 @@ impl Stream for Usdc {
             attributes: Vec::new(),
         };
         layer.gather(&recorded.info, &recorded.extents, &self.arrays)?;
+        layer.gather_beside(beside)?;
         layer.write(&recorded.info, &self.tool)
     }
+}
+
+/// An array that the prim of the curves has beside what hair has.
+pub(crate) struct Beside<'a> {
+    pub(crate) name: String,
+    pub(crate) entries: &'a Entries<'a>,
+}
+
+/// Writes `strands` and what is `beside` them as the file `path`.
+pub(crate) fn write_with(
+    path: &Path,
+    options: &WriteOptions,
+    info: &StreamInfo,
+    strands: &StrandBuffer,
+    beside: &[Beside],
+) -> io::Result<()> {
+    let mut stream = Usdc::begin(path, options, info)?;
+    stream.begin_frame()?;
+    stream.write(strands)?;
+    stream.end_frame()?;
+    stream.finish_with(beside)
 }
 
 /// Brings what `column` has of a frame, `amount` of entries, to its place in `file`.
@@ -112,15 +142,15 @@ fn settle(
 }
 
 /// The specs and their values, once all strands are there.
-struct Layer {
+struct Layer<'a> {
     file: CrateFile,
     sections: Sections,
     /// Times of the samples; none for a still.
     times: Option<ValueRep>,
-    attributes: Vec<Written>,
+    attributes: Vec<Written<'a>>,
 }
 
-impl Layer {
+impl<'a> Layer<'a> {
     /// Lists all attributes, and writes the values that are not there yet.
     fn gather(
         &mut self,
@@ -184,6 +214,21 @@ impl Layer {
             interpolation,
             ..Written::plain(named.name, named.kind, value)
         });
+        Ok(())
+    }
+
+    fn gather_beside(&mut self, beside: &'a [Beside]) -> io::Result<()> {
+        for Beside { name, entries } in beside {
+            let kind = match entries {
+                Entries::Counts(_) => Kind::Int,
+                Entries::Vectors(_) => Kind::Vec3f,
+                Entries::Numbers(_) => Kind::Float,
+            };
+            let value = self.file.array(kind, entries.len() as u64, entries.raw())?;
+            let value = Value::Still(value);
+            self.attributes
+                .push(Written::plain(name, type_name(entries), value));
+        }
         Ok(())
     }
 

@@ -1,7 +1,9 @@
 //! What can be typed.
 
 use super::import::Dialect;
-use super::values::{detail, frames, not_negative, open_range, size, vector, whole};
+use super::values::{
+    ErrorBound, detail, error_bound, frames, not_negative, open_range, size, vector, whole,
+};
 use anyhow::{Result, bail};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use pelage::Recipe;
@@ -51,6 +53,8 @@ pub enum Command {
     Analyze(AnalyzeArgs),
     /// Sweep curves to solid meshes: branches, cables, braids, hair for printing.
     Tube(TubeArgs),
+    /// Fit Super-Helices to curves: few numbers a strand, for simulators and small files.
+    Fit(FitArgs),
     /// Measure the figures of docs/results again, on this machine.
     Bench(BenchArgs),
     /// Draw each property in a strip of pictures, from low to high.
@@ -153,6 +157,63 @@ pub struct TubeArgs {
     #[arg(long, value_name = "F")]
     pub frame: Option<f64>,
 }
+
+/// `pelage fit`.
+#[derive(Debug, Args)]
+#[command(after_help = FIT_EXAMPLES)]
+pub struct FitArgs {
+    /// A file of curves: USD, .npz, .hair or OBJ polylines. With --decode, one of fits.
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub file: PathBuf,
+    /// The fits: .json, .npz (the smallest), or .usdc (with the decoded curves
+    /// beside the numbers). With --decode, the curves: .usdc, .usda, .npz or .rib.
+    #[arg(long, short, value_hint = ValueHint::FilePath, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Elements of each strand: as near as so many come. An element is a piece of a helix.
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(1..=10_000),
+        conflicts_with = "max_error"
+    )]
+    pub elements: Option<u32>,
+    /// As few elements as keep the error: a length, or a percentage of each strand's length.
+    /// Left out, and without --elements, 1%.
+    #[arg(long, value_name = "E", value_parser = error_bound)]
+    pub max_error: Option<ErrorBound>,
+    /// Write the curves of a file of fits again.
+    #[arg(long, conflicts_with_all = ["elements", "max_error", "picture", "frame"])]
+    pub decode: bool,
+    /// Vertices of each decoded strand. Left out, as many as it was fitted with.
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(2..=1_048_576),
+        requires = "decode"
+    )]
+    pub vertices: Option<u32>,
+    /// Also draw the strands, their fits, and these coloured by error, side by side.
+    #[arg(long, value_hint = ValueHint::FilePath, value_name = "PNG")]
+    pub picture: Option<PathBuf>,
+    /// The time to fit, where the file has several.
+    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    pub frame: Option<f64>,
+    /// Threads to use; 0 is one a core. The bytes are the same for any number.
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    pub threads: usize,
+    #[command(flatten)]
+    pub camera: CameraArgs,
+}
+
+const FIT_EXAMPLES: &str = "\
+Examples:
+  pelage fit guides.usda -o guides.json
+  pelage fit hair.npz -o fits.npz --max-error 0.5% --picture fits.png
+  pelage fit hair.usdc -o fits.usdc --elements 6
+  pelage fit --decode fits.json -o hair.usdc
+
+Wherever curves are read (guides of a recipe, `pelage tube`, `pelage render`), fits are
+read as the curves that they decode to. Exits with 3 where a strand misses the bound.";
 
 /// How frames go along a curve.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]

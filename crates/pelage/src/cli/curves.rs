@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use pelage::StrandBuffer;
-use pelage::io::{read_curves, strands_through_vertices};
+use pelage::io::{CurveFile, read_curves, strands_through_vertices};
 use pelage::strands::UpAxis;
 use std::path::Path;
 
@@ -10,8 +10,13 @@ use std::path::Path;
 /// up in it if it says.
 pub fn read(path: &Path, time: Option<f64>) -> Result<(StrandBuffer, Option<UpAxis>)> {
     let file = read_curves(path, time)?;
+    Ok((of(&file), file.up_axis))
+}
+
+/// The curves of all sets of `file`, through their vertices.
+pub fn of(file: &CurveFile) -> StrandBuffer {
     let mut strands = StrandBuffer::new();
     let sets = file.sets.iter().map(strands_through_vertices);
     sets.for_each(|set| strands.append(&set));
-    Ok((strands, file.up_axis))
+    strands
 }

@@ -1,7 +1,8 @@
 //! The command line: arguments in, words and exit codes out.
 //!
 //! Exit codes: 0 done; 1 something failed, said in words on standard error; 2 the
-//! command line itself is wrong; 3 `inspect` found something wrong with a file.
+//! command line itself is wrong; 3 `inspect` found something wrong with a file, or strands
+//! of `fit` miss the bound.
 
 mod analyze;
 mod args;
@@ -9,6 +10,7 @@ mod bench;
 mod curves;
 mod demo;
 mod files;
+mod fit;
 mod gallery;
 mod generate;
 mod import;
@@ -44,6 +46,7 @@ pub fn run() -> ExitCode {
         Command::Render(args) => picture::run(&args, &say),
         Command::Inspect(args) => inspect::run(&args, &say),
         Command::Analyze(args) => analyze::run(&args, &say),
+        Command::Fit(args) => fit::run(&args, &say),
         Command::Tube(args) => tube::run(&args, &say),
         Command::Bench(args) => bench::run(&args, &say),
         Command::Gallery(args) => gallery::run(&args, &say),

@@ -96,6 +96,15 @@ pub fn draw(
     draw_scene(&scene, up, &view.camera, settings, threads, output, say)
 }
 
+/// The camera that is `asked` for, and for the rest one that frames `scene`.
+pub fn camera(scene: &Scene, up: UpAxis, asked: &CameraArgs, aspect: f32) -> Camera {
+    let mut camera = Camera::portrait(scene, up, aspect, AZIMUTH, ELEVATION);
+    camera.to = asked.to.unwrap_or(camera.to);
+    camera.from = asked.from.unwrap_or(camera.from);
+    camera.fov = asked.fov.unwrap_or(camera.fov);
+    camera
+}
+
 /// Renders `scene` as `asked`, and for the rest by `settings`, into the PNG at `output`.
 pub fn draw_scene(
     scene: &Scene,
@@ -113,10 +122,7 @@ pub fn draw_scene(
         threads: (threads > 0).then_some(threads),
         ..settings
     };
-    let mut camera = Camera::portrait(scene, up, settings.aspect(), AZIMUTH, ELEVATION);
-    camera.to = asked.to.unwrap_or(camera.to);
-    camera.from = asked.from.unwrap_or(camera.from);
-    camera.fov = asked.fov.unwrap_or(camera.fov);
+    let camera = camera(scene, up, asked, settings.aspect());
     let bar = Bar::new(say, 100, "% of the picture");
     let picture = render(scene, &camera, &settings, |part| {
         bar.set((part * 100.0) as u64)

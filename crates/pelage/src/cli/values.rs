@@ -75,6 +75,30 @@ pub fn not_negative(text: &str) -> Result<f32, String> {
     }
 }
 
+/// How far a fit may be from its strand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ErrorBound {
+    /// A length, in the unit of the file.
+    Length(f64),
+    /// A part of each strand's length.
+    Part(f64),
+}
+
+/// A length, or a percentage of each strand's length.
+pub fn error_bound(text: &str) -> Result<ErrorBound, String> {
+    let wrong = "expected a length above 0, such as 0.02, or a part of each strand's, such as 1%";
+    let (number, part) = match text.strip_suffix('%') {
+        Some(percent) => (percent.trim_end(), true),
+        None => (text, false),
+    };
+    let number: f64 = number.parse().map_err(|_| wrong.to_owned())?;
+    match (number > 0.0 && number.is_finite(), part) {
+        (true, true) => Ok(ErrorBound::Part(number / 100.0)),
+        (true, false) => Ok(ErrorBound::Length(number)),
+        (false, _) => Err(wrong.into()),
+    }
+}
+
 /// An angle between rings, in degrees.
 pub fn detail(text: &str) -> Result<f32, String> {
     let degrees = not_negative(text)?;
@@ -87,6 +111,16 @@ pub fn detail(text: &str) -> Result<f32, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn error_bounds_are_lengths_or_percentages() {
+        assert_eq!(error_bound("0.25"), Ok(ErrorBound::Length(0.25)));
+        assert_eq!(error_bound("2%"), Ok(ErrorBound::Part(0.02)));
+        assert_eq!(error_bound("0.5 %"), Ok(ErrorBound::Part(0.005)));
+        for wrong in ["", "%", "0", "-1%", "nan", "inf", "1e999%", "1%%"] {
+            assert!(error_bound(wrong).is_err(), "{wrong}");
+        }
+    }
 
     #[test]
     fn ranges_and_frames_are_read() {

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod bench;
+mod fit;
 mod groom;
 mod import;
 mod maps;
