@@ -447,7 +447,11 @@ fn animated_frizz_moves_with_time_and_what_does_not_move_stays() {
 
 #[test]
 fn the_way_the_texture_lies_on_the_surface_does_not_matter() {
-    for more in ["", "interpolation.space = 'frenet'"] {
+    for more in [
+        "",
+        "interpolation.space = 'frenet'",
+        "interpolation.space = 'helix'",
+    ] {
         let [straight, turned] = [false, true].map(|turned_uvs| {
             let fixture = Fixture {
                 flat: true,
