@@ -7,6 +7,7 @@
 //! are.
 
 use super::Part;
+use pelage_curves::frenet::Frame;
 use pelage_curves::super_helix::{Goal, Settings, SuperHelix, fit};
 use pelage_curves::{Chain, DVec3, Vec3};
 use rayon::prelude::*;
@@ -14,6 +15,10 @@ use rayon::prelude::*;
 /// Exponent of the knots of the curve through a guide's vertices: centripetal, which makes no
 /// loops.
 const ALPHA: f64 = 0.5;
+
+/// A guide longer than its chord by no more than this part is straight: no vertex is off the
+/// chord by more than 1e-4 of it, and what bends there are may be noise of f32.
+const EXCESS: f64 = 1e-8;
 
 /// Fractions of the length that are nearer than this are one joint.
 const SAME: f64 = 1e-6;
@@ -81,6 +86,14 @@ fn shared_joints(guides: &[Fitted]) -> Vec<f64> {
 impl Fitted {
     fn new(guide: &[Vec3], elements: usize) -> Self {
         let exact: Vec<DVec3> = guide.iter().map(|v| v.as_dvec3()).collect();
+        let length: f64 = exact.windows(2).map(|p| p[0].distance(p[1])).sum();
+        let Some(exact) = seen_from_itself(&exact) else {
+            return Self::straight(0.0);
+        };
+        let chord = exact.last().map_or(0.0, |tip| tip.length());
+        if length <= chord * (1.0 + EXCESS) {
+            return Self::straight(length);
+        }
         let elements = elements.min(guide.len().saturating_sub(1)).max(1);
         let settings = Settings {
             start: Some(elements),
@@ -175,6 +188,24 @@ impl Fitted {
             }
         })
     }
+}
+
+/// Offsets from the first vertex along the chord and to the side the vertices are on: steps of
+/// a fit depend on the axes, and the fit shall not depend on how those of the surface lie.
+fn seen_from_itself(vertices: &[DVec3]) -> Option<Vec<DVec3>> {
+    let (first, last) = (*vertices.first()?, *vertices.last()?);
+    let line = (last - first).try_normalize().unwrap_or(DVec3::X);
+    let side = vertices.iter().map(|&v| v - first).sum::<DVec3>();
+    let axes = Frame::new(line, side);
+    let seen = vertices.iter().map(|&v| {
+        let offset = v - first;
+        DVec3::new(
+            offset.dot(axes.tangent),
+            offset.dot(axes.normal),
+            offset.dot(axes.binormal),
+        )
+    });
+    Some(seen.collect())
 }
 
 /// How fast a frame of this (q0, q1, q2) bends.
