@@ -132,7 +132,7 @@ fn plane_guides_make_plane_hairs_and_s_shapes_stay_s_shapes() {
 #[test]
 fn a_guide_without_length_shortens_the_hair_and_leaves_its_shape() {
     let curl = helix(0.1, 4.0, 0.2);
-    let whole = blended(&[curl.clone()], &[1.0]);
+    let whole = blended(std::slice::from_ref(&curl), &[1.0]);
     let hair = blended(&[curl, straight(Vec3::ZERO)], &[0.25, 0.75]);
     for (h, g) in hair.iter().zip(&whole) {
         assert!(h.distance(*g * 0.25) < 1e-5);
@@ -147,7 +147,7 @@ fn more_elements_follow_finer_detail() {
         .collect();
     let wave = evenly(&wave);
     let misses = [2, 6, 24].map(|elements| {
-        let hair = helix_each(&[wave.clone()], elements, &[[1.0]]).remove(0);
+        let hair = helix_each(std::slice::from_ref(&wave), elements, &[[1.0]]).remove(0);
         farthest(&hair, &wave)
     });
     assert!(misses.windows(2).all(|m| m[1] < 0.2 * m[0]), "{misses:?}");
