@@ -3,7 +3,7 @@
 use crate::guide::Guide;
 use crate::guide_shapes::GuideShapes;
 use crate::locator::{Locator, Near};
-use crate::recipe::InterpolationSpace;
+use crate::recipe::Interpolation;
 use pelage_curves::Vec3;
 use pelage_surface::{Mesh, RootFrame, SurfacePoint};
 
@@ -13,7 +13,7 @@ pub(crate) struct GuideSet {
     /// Segments of the group's hairs.
     pub segments: u32,
     /// How hairs are mixed of them.
-    space: InterpolationSpace,
+    interpolation: Interpolation,
     /// Their shapes at rest.
     pub shapes: GuideShapes,
     /// Number of each guide among all of the groom.
@@ -32,12 +32,12 @@ pub(crate) struct GuideSet {
 
 impl GuideSet {
     /// Resamples `guides`, each with its number among all of the groom, to `segments` each,
-    /// and prepares mixing them in `space` and finding the `nearest`.
+    /// and prepares mixing them by `interpolation` and finding the `nearest`.
     pub(crate) fn new(
         mesh: &Mesh,
         guides: &[(usize, &Guide)],
         segments: u32,
-        space: InterpolationSpace,
+        interpolation: &Interpolation,
         nearest: usize,
     ) -> Self {
         let resampled: Vec<Guide> = guides
@@ -46,8 +46,8 @@ impl GuideSet {
             .collect();
         Self {
             segments,
-            space,
-            shapes: GuideShapes::new(&locals(&resampled), space),
+            interpolation: interpolation.clone(),
+            shapes: GuideShapes::new(&locals(&resampled), interpolation),
             numbers: guides.iter().map(|(number, _)| *number).collect(),
             roots: guides.iter().map(|(_, guide)| guide.root).collect(),
             frames: resampled.iter().map(|g| g.frame).collect(),
@@ -69,7 +69,7 @@ impl GuideSet {
             let guide = Guide::of_curve(surface, root, &curves[number]);
             guide.resampled(self.segments as usize).local
         });
-        GuideShapes::new(&posed.collect::<Vec<_>>(), self.space)
+        GuideShapes::new(&posed.collect::<Vec<_>>(), &self.interpolation)
     }
 
     /// Number of guides.

@@ -3,17 +3,19 @@
 use crate::blocks::Blocks;
 use crate::capture::Capture;
 use crate::curves::Curves;
-use crate::guide_shapes::GuideShapes;
+use crate::guide_set::GuideSet;
+use crate::guide_shapes::{GuideShapes, Mixed};
 use crate::lanes::LANES;
 use crate::plan::Plan;
-use crate::stages::{frenet, interpolate, scale};
+use crate::stages::{frenet, helix, interpolate, scale};
 use fearless_simd::{Level, dispatch};
 
-/// Memory for hairs that are mixed by their bends. Reused between chunks.
+/// Memory for hairs that are put together of bends and twists. Reused between chunks.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MixScratch {
     curves: Curves,
     frenet: frenet::Scratch,
+    helix: helix::Scratch,
 }
 
 impl Plan {
@@ -36,21 +38,10 @@ impl Plan {
             let _ = simd;
             mix_vertices(capture, shapes, hairs)
         });
-        if self
-            .guides
-            .iter()
-            .any(|guides| guides.shapes.corners.is_some())
-        {
-            let parts = |i: usize| {
-                let corners = shapes(capture.roots[i].group).corners.as_deref();
-                corners.map(|corners| frenet::Parts {
-                    corners,
-                    shares: capture.shares(i),
-                })
-            };
+        let all_by_vertices = |guides: &GuideSet| matches!(guides.shapes.mixed, Mixed::Vertices);
+        if !self.guides.iter().all(all_by_vertices) {
             hairs.unroll(&mut scratch.curves);
-            let Curves { vertices, starts } = &mut scratch.curves;
-            frenet::wind(parts, starts, &mut scratch.frenet, vertices);
+            put_together(capture, shapes, scratch);
             hairs.roll(&scratch.curves);
         }
         dispatch!(Level::new(), simd => {
@@ -63,6 +54,26 @@ impl Plan {
             }
         });
     }
+}
+
+/// Puts the hairs together of bends and twists, in whichever way their group says.
+fn put_together<'a>(
+    capture: &Capture,
+    shapes: impl Fn(u32) -> &'a GuideShapes,
+    scratch: &mut MixScratch,
+) {
+    let mixed = |i: usize| (&shapes(capture.roots[i].group).mixed, capture.shares(i));
+    let Curves { vertices, starts } = &mut scratch.curves;
+    let corners = |i: usize| match mixed(i) {
+        (Mixed::Frenet(corners), shares) => Some(frenet::Parts { corners, shares }),
+        _ => None,
+    };
+    frenet::wind(corners, starts, &mut scratch.frenet, vertices);
+    let helices = |i: usize| match mixed(i) {
+        (Mixed::Helix(helices), shares) => Some(helix::Parts { helices, shares }),
+        _ => None,
+    };
+    helix::wind(helices, starts, &mut scratch.helix, vertices);
 }
 
 /// Hairs as the weighted means of the vertices of their guides.

@@ -1,6 +1,6 @@
 use super::*;
 use crate::Guide;
-use crate::recipe::InterpolationSpace;
+use crate::recipe::Interpolation;
 use pelage_curves::Vec3;
 use pelage_surface::{Mesh, PolygonMesh, SurfacePoint, hash};
 
@@ -47,8 +47,8 @@ fn some_guides(mesh: &Mesh, sharing: &Sharing, count: u64) -> GuideSet {
         })
         .collect();
     let guides: Vec<(usize, &Guide)> = guides.iter().enumerate().collect();
-    let space = InterpolationSpace::Vertices;
-    GuideSet::new(mesh, &guides, 3, space, sharing.nearest())
+    let interpolation = Interpolation::default();
+    GuideSet::new(mesh, &guides, 3, &interpolation, sharing.nearest())
 }
 
 /// A root in the square on a surface that rolls: its normal turns with its place.

@@ -14,7 +14,7 @@ use crate::noise_fields::NoiseFields;
 use crate::pose::Moment;
 use crate::profile::Profile;
 use crate::random::Channel;
-use crate::recipe::{self, GuideSource, InterpolationSpace, Recipe};
+use crate::recipe::{self, GuideSource, Interpolation, Recipe};
 use crate::stages::flyaway::FlyawayFields;
 use crate::stages::frizz::FrizzFields;
 use crate::stages::look::LookFields;
@@ -105,7 +105,7 @@ impl Plan {
             guide_count: all.len(),
             notes,
         };
-        plan.share_out(&all, recipe.interpolation.space)?;
+        plan.share_out(&all, &recipe.interpolation)?;
         for level in &recipe.clump.levels {
             plan.add_clumps(level, &mut maker)?;
         }
@@ -114,7 +114,7 @@ impl Plan {
     }
 
     /// Gives each group its guides; a group whose hairs would have none is an error.
-    fn share_out(&mut self, all: &[Guide], space: InterpolationSpace) -> Result<(), PlanError> {
+    fn share_out(&mut self, all: &[Guide], interpolation: &Interpolation) -> Result<(), PlanError> {
         let (groups, rest) = (&self.roots.groups, &self.roots.rest);
         let Some(sampler) = self.roots.sampler() else {
             return Ok(());
@@ -130,8 +130,13 @@ impl Plan {
                 .filter(|(_, g)| **g as usize == index)
                 .map(|(guide, _)| guide)
                 .collect();
-            self.guides
-                .push(GuideSet::new(rest, &mine, group.segments, space, nearest));
+            self.guides.push(GuideSet::new(
+                rest,
+                &mine,
+                group.segments,
+                interpolation,
+                nearest,
+            ));
         }
         let lonely = sampler
             .piece_centres()

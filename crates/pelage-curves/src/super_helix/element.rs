@@ -37,6 +37,23 @@ impl Element {
     pub fn rate(&self) -> DVec3 {
         DVec3::new(self.twist, self.curvatures[0], self.curvatures[1])
     }
+
+    /// How the frame turns and how far the curve shifts over the element, as coordinates in
+    /// the frame (tangent, first and second normal) at its start: what a walk along elements
+    /// needs that keeps no [`SuperHelix`](super::SuperHelix).
+    ///
+    /// ```
+    /// use pelage_curves::{DVec3, super_helix::Element};
+    /// let quarter = Element { length: 1.0, twist: 0.0, curvatures: [0.0, std::f64::consts::FRAC_PI_2] };
+    /// let (turn, shift) = quarter.motion();
+    /// assert!((turn * DVec3::X).distance(DVec3::Y) < 1e-15);
+    /// assert!(shift.distance(DVec3::new(1.0, 1.0, 0.0) / std::f64::consts::FRAC_PI_2) < 1e-15);
+    /// ```
+    #[inline(always)]
+    pub fn motion(&self) -> (DMat3, DVec3) {
+        let motion = Motion::new(self.rate(), self.length);
+        (motion.turn(), motion.shift())
+    }
 }
 
 /// Turn, shift and their derivatives over a length at a rate, as coordinates in the frame

@@ -26,6 +26,9 @@ words! {
         /// Curvature and torsion along the strand (document 000, 4.3): curls stay
         /// curls between guides whose curls differ in phase.
         Frenet = "frenet",
+        /// Lengths, twists and curvatures of Super-Helices fitted to the guides (document
+        /// 002): curls stay curls, and what is finer than an element is left out.
+        Helix = "helix",
     }
 }
 
@@ -41,6 +44,9 @@ section! {
         pub method: Method = Method::InverseDistance => Rule::ANY,
         /// What of the guides is interpolated.
         pub space: InterpolationSpace = InterpolationSpace::Vertices => Rule::ANY,
+        /// Elements of the Super-Helix that stands for a guide in helix space, of equal
+        /// length; never more than the hair has segments. More follow finer detail.
+        pub elements: u32 = 8 => Rule::between(1.0, 100.0),
         /// Whether guides that point away from the surface count less: false,
         /// true, or { exponent = a } (document 000, eq. 49).
         pub facing: Facing = Facing::Off => Facing::RULE,

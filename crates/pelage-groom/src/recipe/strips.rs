@@ -100,6 +100,13 @@ const CURLY: &[(&str, &str)] = &[
     ("guides.grow.curl.turns", "4.0"),
     ("groups.segments", "32"),
 ];
+const FEW_CURLS: &[(&str, &str)] = &[
+    ("guides.grow.count", "6"),
+    ("guides.grow.curl.radius", "0.08"),
+    ("guides.grow.curl.turns", "3.0"),
+    ("groups.segments", "32"),
+    ("hair.count", "60"),
+];
 const BENT: &[(&str, &str)] = &[
     ("guides.grow.segments", "64"),
     ("groups.segments", "64"),
@@ -192,12 +199,21 @@ pub const STRIPS: &[Strip] = &[
         &["'nearest'", "'inverse-distance'", "'natural-neighbor'"],
     )
     .with(COARSE),
-    strip("interpolation.space", Tuft, &["'vertices'", "'frenet'"]).with(&[
-        ("guides.grow.count", "6"),
-        ("guides.grow.curl.radius", "0.08"),
-        ("guides.grow.curl.turns", "3.0"),
-        ("groups.segments", "32"),
-        ("hair.count", "60"),
+    strip(
+        "interpolation.space",
+        Tuft,
+        &["'vertices'", "'frenet'", "'helix'"],
+    )
+    .with(FEW_CURLS),
+    strip("interpolation.elements", Tuft, &["1", "2", "4", "8"]).with(&[
+        ("interpolation.space", "'helix'"),
+        (
+            "guides.grow.bend.curvature",
+            "{ ramp = [[0, 0], [0.5, 1500], [1, 0]] }",
+        ),
+        ("guides.grow.bend.torsion", "900.0"),
+        ("guides.grow.segments", "64"),
+        ("groups.segments", "64"),
     ]),
     strip("interpolation.facing", Fur, OFF_AND_ON).with(COARSE),
     strip("cut.length", Tuft, &["0.25", "0.5", "0.75", "1.0"]),

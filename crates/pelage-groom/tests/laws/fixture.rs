@@ -79,12 +79,19 @@ const FRENET: &str = "interpolation.space = 'frenet'
     output.skip_threshold = 0.98
 ";
 
+/// Hairs mixed as Super-Helices, and all that comes after.
+const HELIX: &str = "interpolation = { space = 'helix', elements = 3 }
+    frizz = { tip = 0.1, frequency = [2, 3, 2] }
+    cut.length = { map = 'length.png' }
+    output.skip_threshold = 0.98
+";
+
 /// Every kind of roots, and of hairs.
 pub fn kinds() -> impl Iterator<Item = Fixture<'static>> {
     let patterns = ["roots.pattern = 'random'", "roots.pattern = 'blue-noise'"];
     let [random, blue_noise] = patterns;
     let roots = ["", DISPLACED, NOISY, random, blue_noise];
-    let all = roots.into_iter().chain([SHARED, FRENET, EVERYTHING]);
+    let all = roots.into_iter().chain([SHARED, FRENET, HELIX, EVERYTHING]);
     all.map(|more| Fixture {
         more,
         ..Fixture::default()

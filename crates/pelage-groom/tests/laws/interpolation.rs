@@ -116,7 +116,11 @@ fn where_every_guide_points_into_the_skin_hairs_grow_by_distance() {
 
 #[test]
 fn hairs_that_grow_side_by_side_look_alike_also_where_their_guides_change() {
-    for more in ["", "interpolation.space = 'frenet'"] {
+    for more in [
+        "",
+        "interpolation.space = 'frenet'",
+        "interpolation.space = 'helix'",
+    ] {
         let fixture = Fixture {
             flat: true,
             more,
@@ -201,7 +205,7 @@ fn radius_kept(strands: &StrandBuffer, i: usize) -> f32 {
 }
 
 #[test]
-fn curls_keep_their_radius_in_frenet_space_and_lose_it_by_vertices() {
+fn curls_keep_their_radius_in_frenet_and_helix_space_and_lose_it_by_vertices() {
     for method in ["inverse-distance", "natural-neighbor"] {
         let mean = |space: &str| {
             let strands = curls(&format!(
@@ -210,8 +214,9 @@ fn curls_keep_their_radius_in_frenet_space_and_lose_it_by_vertices() {
             let kept = (0..strands.len()).map(|i| radius_kept(&strands, i));
             kept.sum::<f32>() / strands.len() as f32
         };
-        let (vertices, frenet) = (mean("vertices"), mean("frenet"));
-        println!("{method}: vertices {vertices}, frenet {frenet}");
+        let [vertices, frenet, helix] = ["vertices", "frenet", "helix"].map(mean);
+        println!("{method}: vertices {vertices}, frenet {frenet}, helix {helix}");
         assert!(vertices < 0.9 && frenet > 0.98, "{vertices} {frenet}");
+        assert!(helix > 0.97, "{helix}");
     }
 }

@@ -14,25 +14,20 @@
 //! - t is the mean weighted by ℓ_i |k_i|, as κτ B̂ in the document: a straight guide does
 //!   not wind, and its torsion, which is none, does not unwind the others.
 //!
-//! How the hair is turned at its root: such that it fits the mean of the guides' vertices,
-//! end on end, and rolled about that line as the tangents agree best. (The document's mean
-//! of the first bases tilts a coat of curls: DESIGN.md, "Why are curls fitted?".)
+//! How the hair is turned at its root: [laid](super::laying) on the mean of the guides'
+//! vertices.
 //!
 //! Along one hair each edge waits for the one before, so sixteen hairs are walked side by
 //! side; what is done is done lane by lane, and a hair has the same bits whatever its
 //! neighbours.
 //!
 //! Limits: between a straight guide and a curl κ falls and τ stays, so a tight curl fades by
-//! winding more slowly, up to half as wide again on the way. Hairs all around three guides whose phases go round once cannot all be curls
-//! and change smoothly. Where guides say nothing of the roll, or of the line, the hair goes
-//! over into the mean of the vertices, stretched to its length.
+//! winding more slowly, up to half as wide again on the way. Plane bends to opposite sides
+//! and S shapes whose signs do not match go over into the mean of the vertices.
 
-mod fit;
-
+use super::laying::{self, Edges, Maker, says};
 use super::weights::Share;
 use crate::lanes::{LANES, Row, Rows};
-use fearless_simd::{Level, dispatch};
-use fit::{Fit, Lines, Sums, across};
 use pelage_curves::Vec3;
 use pelage_curves::frenet::polygon::Polygon;
 
@@ -45,9 +40,6 @@ const SHARPEST: f64 = 1e3;
 /// Weight of torsion where nothing bends, beside 1 for a bend of a right angle: so small
 /// that a curl's winding wins, and not 0, so that there is always a mean.
 const LEAST_SAY: f64 = 1e-3;
-
-/// Where the mean of directions is shorter than this they have hardly a common one.
-const COMMON: f32 = 0.1;
 
 /// An edge of a guide and the corner before it, ready to be summed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -93,22 +85,18 @@ struct Corners {
     twist: Row,
 }
 
-/// An edge of each of the hairs, which start along +X.
-#[derive(Clone, Copy, Debug, Default)]
-struct Edges {
-    vector: Rows,
-    /// How much it says of the hair's roll.
-    say: Row,
-}
-
 /// Memory for the hairs side by side. Reused between chunks.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
+    winder: Winder,
+    laid: laying::Scratch,
+}
+
+/// Puts hairs together of their corners.
+#[derive(Clone, Debug, Default)]
+struct Winder {
     mixed: Vec<Corner>,
     corners: Vec<Corners>,
-    edges: Vec<Edges>,
-    /// The mean of the vertices, and in the end the hair's.
-    vertices: Vec<Rows>,
 }
 
 /// What a hair is made of.
@@ -130,59 +118,24 @@ pub fn wind<'a>(
     scratch: &mut Scratch,
     vertices: &mut [Vec3],
 ) {
-    let hairs = 0..starts.len().saturating_sub(1);
     // One guide alone is its own mean.
-    let shared = |i: usize| parts(i).filter(|p| p.shares.len() > 1).map(|p| (i, p));
-    let mut hairs = hairs.filter_map(shared);
-    dispatch!(Level::new(), simd => {
-        let _ = simd;
-        let mut block = [0; LANES];
-        loop {
-            scratch.clear();
-            let mut lanes = 0;
-            for (i, parts) in hairs.by_ref().take(LANES) {
-                let range = starts[i] as usize..starts[i + 1] as usize;
-                scratch.load(lanes, parts, &vertices[range]);
-                block[lanes] = i;
-                lanes += 1;
-            }
-            if lanes == 0 {
-                break;
-            }
-            scratch.unroll();
-            let fit = scratch.fit();
-            scratch.place(&fit);
-            for (lane, &i) in block[..lanes].iter().enumerate() {
-                let range = starts[i] as usize..starts[i + 1] as usize;
-                for (vertex, row) in vertices[range].iter_mut().zip(&scratch.vertices) {
-                    *vertex = row.get(lane);
-                }
-            }
-        }
-    });
+    let shared = |i: usize| parts(i).filter(|p| p.shares.len() > 1);
+    let Scratch { winder, laid } = scratch;
+    laying::lay(shared, starts, winder, laid, vertices);
 }
 
-impl Scratch {
+impl Maker<Parts<'_>> for Winder {
     fn clear(&mut self) {
         self.corners.clear();
-        self.edges.clear();
-        self.vertices.clear();
     }
 
-    /// Puts a hair into a lane. Shorter ones than the longest go on with edges without
-    /// length.
     #[inline(always)]
-    fn load(&mut self, lane: usize, parts: Parts, mean: &[Vec3]) {
-        let segments = mean.len() - 1;
+    fn load(&mut self, lane: usize, parts: Parts, segments: usize, _: &mut [Edges]) {
         self.mixed.clear();
         self.mixed.resize(segments, Corner::default());
         mix(parts, &mut self.mixed);
         if self.corners.len() < segments {
             self.corners.resize(segments, Corners::default());
-            self.edges.resize(segments, Edges::default());
-            // Hairs that are there already stay where they end.
-            let last = self.vertices.last().copied().unwrap_or_default();
-            self.vertices.resize(segments + 1, last);
         }
         for (row, corner) in self.corners.iter_mut().zip(&self.mixed) {
             row.length[lane] = corner.length;
@@ -190,19 +143,11 @@ impl Scratch {
             row.say[lane] = corner.say;
             row.twist[lane] = corner.twist;
         }
-        let last = mean[segments];
-        let vertices = mean.iter().chain(std::iter::repeat(&last));
-        for (row, vertex) in self.vertices.iter_mut().zip(vertices) {
-            row.set(lane, *vertex);
-        }
     }
 
-    /// Makes the edges that have these corners.
-    ///
-    /// How much an edge says of the roll falls with how far the hair has wound before it:
-    /// guides that wind at different rates come to disagree.
+    /// Makes the edges that have these corners, of hairs that start along +X.
     #[inline(always)]
-    fn unroll(&mut self) {
+    fn unroll(&mut self, edges: &mut [Edges]) {
         let (mut tangents, mut normals, mut binormals) =
             (Rows::default(), Rows::default(), Rows::default());
         for lane in 0..LANES {
@@ -211,7 +156,7 @@ impl Scratch {
             binormals.set(lane, Vec3::Z);
         }
         let (mut before, mut wound) = ([0.0; LANES], [0.0; LANES]);
-        for (corner, edge) in self.corners.iter().zip(&mut self.edges) {
+        for (corner, edge) in self.corners.iter().zip(edges) {
             // Copies, so that the compiler sees that nothing overlaps.
             let (corner, mut made) = (*corner, Edges::default());
             for lane in 0..LANES {
@@ -226,77 +171,16 @@ impl Scratch {
                 let bend = angle(cosine, sine);
                 // Where hardly anything bends a twist is noise.
                 let wound_here = wound[lane] + bend + twist.min(4.0 * bend);
-                let fades = 1.0 / (1.0 + 0.25 * wound_here * wound_here);
                 tangents.set(lane, t);
                 normals.set(lane, n);
                 binormals.set(lane, b);
                 before[lane] = here;
                 wound[lane] = wound_here;
                 made.vector.set(lane, t * here);
-                made.say[lane] = fades * fades;
+                made.length[lane] = here;
+                made.say[lane] = says(wound_here);
             }
             *edge = made;
-        }
-    }
-
-    /// Fits the edges to the mean of the vertices.
-    #[inline(always)]
-    fn fit(&self) -> [Fit; LANES] {
-        let mut chord = Rows::default();
-        let mut length = [0.0; LANES];
-        for (corner, edge) in self.corners.iter().zip(&self.edges) {
-            for (lane, length) in length.iter_mut().enumerate() {
-                chord.set(lane, chord.get(lane) + edge.vector.get(lane));
-                *length += corner.length[lane];
-            }
-        }
-        let (first, last) = (&self.vertices[0], &self.vertices[self.corners.len()]);
-        let lines: [Lines; LANES] = std::array::from_fn(|lane| {
-            let whole = last.get(lane) - first.get(lane);
-            Lines::new(chord.get(lane), whole, length[lane])
-        });
-        let mut sums = Sums::default();
-        let [a, b] = across(&lines, |l| l.from);
-        let [c, d] = across(&lines, |l| l.onto);
-        let pairs = self.vertices.windows(2);
-        for ((corner, edge), pair) in self.corners.iter().zip(&self.edges).zip(pairs) {
-            let (corner, edge, pair) = (*corner, *edge, [pair[0], pair[1]]);
-            for lane in 0..LANES {
-                let mean = pair[1].get(lane) - pair[0].get(lane);
-                let own = edge.vector.get(lane);
-                let own = [own.dot(a.get(lane)), own.dot(b.get(lane))];
-                let mean = [mean.dot(c.get(lane)), mean.dot(d.get(lane))];
-                sums.add(lane, own, mean, edge.say[lane], corner.length[lane]);
-            }
-        }
-        std::array::from_fn(|lane| Fit::new(&lines[lane], &sums, lane))
-    }
-
-    /// Writes the vertices over those of the mean, edge by edge at full length.
-    #[inline(always)]
-    fn place(&mut self, fits: &[Fit; LANES]) {
-        let [a, b, c] = [0, 1, 2].map(|k| Rows::of(fits, |fit| fit.from.0[k]));
-        let [x, y, z] = [0, 1, 2].map(|k| Rows::of(fits, |fit| fit.onto.0[k]));
-        let shares: Row = std::array::from_fn(|lane| fits[lane].share);
-        let mut before = self.vertices[0];
-        let mut end = before;
-        let edges = self.corners.iter().zip(&self.edges);
-        for ((corner, edge), vertex) in edges.zip(&mut self.vertices[1..]) {
-            let (corner, edge, mut made) = (*corner, *edge, *vertex);
-            for (lane, share) in shares.iter().enumerate() {
-                let here = made.get(lane);
-                let mean = here - before.get(lane);
-                before.set(lane, here);
-                let edge = edge.vector.get(lane);
-                let placed = x.get(lane) * edge.dot(a.get(lane))
-                    + y.get(lane) * edge.dot(b.get(lane))
-                    + z.get(lane) * edge.dot(c.get(lane));
-                let mixed = mean * (1.0 - share) + placed * share;
-                let next = end.get(lane) + stretched(mixed, corner.length[lane]);
-                end.set(lane, next);
-                made.set(lane, next);
-            }
-            *vertex = made;
         }
     }
 }
@@ -338,15 +222,6 @@ fn turn(part: f32, whole: f32) -> (f32, f32) {
 #[inline(always)]
 fn angle(cosine: f32, sine: f32) -> f32 {
     1.0 - cosine + sine.abs()
-}
-
-/// `edge` at `length`, which it has already or falls short of; less where it is almost 0,
-/// so that the result does not jump there.
-#[inline(always)]
-fn stretched(edge: Vec3, length: f32) -> Vec3 {
-    let soft = COMMON * COMMON * length * length;
-    let square = (edge.length_squared() + soft).max(f32::MIN_POSITIVE);
-    edge * ((length * length + soft) / square).sqrt()
 }
 
 #[cfg(test)]

@@ -1,64 +1,9 @@
 use super::*;
-use crate::stages::interpolate::{self, Row, rows};
+use crate::stages::laying::samples::*;
 use pelage_curves::DVec3;
 use pelage_curves::frenet::Frame;
 use proptest::prelude::*;
 use std::f32::consts::TAU;
-
-const SEGMENTS: usize = 48;
-
-/// A helix about the normal from the origin: `turns` turns of `radius` over a height of 1.
-fn helix(radius: f32, turns: f32, phase: f32) -> Vec<Vec3> {
-    let at = |i: usize| {
-        let t = i as f32 / SEGMENTS as f32;
-        let angle = TAU * (turns * t + phase);
-        Vec3::new(radius * libm::cosf(angle), radius * libm::sinf(angle), t)
-    };
-    (0..=SEGMENTS).map(|i| at(i) - at(0)).collect()
-}
-
-fn straight(tip: Vec3) -> Vec<Vec3> {
-    (0..=SEGMENTS)
-        .map(|i| tip * (i as f32 / SEGMENTS as f32))
-        .collect()
-}
-
-/// In one plane through the normal, with a bend one way and a bend the other.
-fn s_shape(size: f32, direction: f32) -> Vec<Vec3> {
-    let at = |i: usize| {
-        let t = i as f32 / SEGMENTS as f32;
-        let aside = size * (1.0 - libm::cosf(TAU * t));
-        Vec3::new(
-            aside * libm::cosf(direction),
-            aside * libm::sinf(direction),
-            t,
-        )
-    };
-    (0..=SEGMENTS).map(at).collect()
-}
-
-fn shares(weights: &[f32]) -> Vec<Share> {
-    let shares = (0..).zip(weights).map(|(guide, &weight)| Share {
-        guide,
-        weight,
-        cosine: weight,
-        sine: 0.0,
-    });
-    shares.collect()
-}
-
-/// The mean of guides, as vertices one after the other.
-fn interpolate(guides: &[Row], shares: &[Share], hair: &mut [Vec3]) {
-    let mut rows = vec![Rows::default(); hair.len()];
-    interpolate::interpolate(guides, hair.len(), shares, 0, &mut rows);
-    for (vertex, row) in hair.iter_mut().zip(&rows) {
-        *vertex = row.get(0);
-    }
-}
-
-fn in_rows(guides: &[Vec<Vec3>]) -> Vec<Row> {
-    guides.iter().flat_map(|guide| rows(guide)).collect()
-}
 
 /// The hairs that guides share by each of `weights`.
 fn frenet_each<const N: usize>(guides: &[Vec<Vec3>], weights: &[[f32; N]]) -> Vec<Vec<Vec3>> {
@@ -92,24 +37,6 @@ fn both<const N: usize>(guides: &[Vec<Vec3>], weights: &[f32; N]) -> [Vec<Vec3>;
 
 fn frenet<const N: usize>(guides: &[Vec<Vec3>], weights: &[f32; N]) -> Vec<Vec3> {
     frenet_each(guides, &[*weights]).remove(0)
-}
-
-fn length(hair: &[Vec3]) -> f32 {
-    hair.windows(2).map(|w| w[0].distance(w[1])).sum()
-}
-
-/// Root mean square distance from the axis of whole turns about the normal.
-fn radius(hair: &[Vec3]) -> f32 {
-    let flat = |v: &Vec3| Vec3::new(v.x, v.y, 0.0);
-    let turns = &hair[..SEGMENTS];
-    let middle = turns.iter().map(flat).sum::<Vec3>() / SEGMENTS as f32;
-    let squares = turns.iter().map(|v| flat(v).distance_squared(middle));
-    (squares.sum::<f32>() / SEGMENTS as f32).sqrt()
-}
-
-fn farthest(a: &[Vec3], b: &[Vec3]) -> f32 {
-    let apart = a.iter().zip(b).map(|(p, q)| p.distance(*q));
-    apart.fold(0.0, f32::max)
 }
 
 #[test]
@@ -287,21 +214,6 @@ fn a_guide_without_length_shortens_the_hair_and_leaves_its_shape() {
     for (h, g) in hair.iter().zip(&guides[0]) {
         assert!(h.distance(*g * 0.25) < 1e-5);
     }
-}
-
-/// Guides of many kinds that have nothing to do with each other.
-fn motley() -> Vec<Vec<Vec3>> {
-    vec![
-        helix(0.1, 4.0, 0.0),
-        helix(0.1, 4.0, 0.33),
-        helix(0.1, 4.0, 0.67),
-        helix(0.15, -3.0, 0.1),
-        straight(Vec3::new(0.5, 0.0, 0.8)),
-        straight(Vec3::new(-0.9, 0.0, -0.3)),
-        s_shape(0.2, 0.5),
-        s_shape(-0.2, 0.6),
-        straight(Vec3::ZERO),
-    ]
 }
 
 #[test]
