@@ -41,6 +41,10 @@ const POINTS: usize = 100;
 /// The bound that all are held to, as a part of the length.
 const BOUND: f64 = 0.01;
 
+/// Finer bounds, and the kinds of strands that are held to them.
+const BOUNDS: [f64; 4] = [0.01, 0.003, 0.001, 0.000_5];
+const FINER: [&str; 2] = ["wavy", "curly"];
+
 /// Most elements that the other ways are tried with.
 const MOST: usize = 120;
 
@@ -73,6 +77,7 @@ fn main() -> Result<()> {
     }
     let mut report = String::from(HEAD);
     bound_table(&mut report, &families)?;
+    finer_table(&mut report, &families)?;
     ten_table(&mut report, &families)?;
     rate(&mut report)?;
     std::fs::write(folder.join("super_helices.md"), &report)?;
@@ -153,6 +158,28 @@ impl Family {
     }
 }
 
+impl Family {
+    /// Elements that `method` needs to keep `bound`.
+    fn elements(&self, method: Method, bound: f64) -> Result<Option<f64>> {
+        self.mean(|target| {
+            let curve = method.within(target, bound, MOST)?;
+            Ok(curve.map(|curve| curve.elements().len() as f64))
+        })
+    }
+
+    /// Spans that a curve through vertices needs to keep `bound`, measured as `way` says.
+    fn spans(&self, spline: Spline, way: usize, bound: f64) -> Result<Option<f64>> {
+        self.mean(|target| {
+            for spans in 1..=MOST {
+                if target.spline_misses(spline, spans)?[way] <= bound {
+                    return Ok(Some(spans as f64));
+                }
+            }
+            Ok(None)
+        })
+    }
+}
+
 fn told(number: Option<f64>) -> String {
     number.map_or(format!("> {MOST}"), |x| format!("{x:.1}"))
 }
@@ -174,21 +201,10 @@ fn bound_table(report: &mut String, families: &[Family]) -> Result<()> {
     for family in families {
         let mut cells = Vec::new();
         for method in Method::ALL {
-            let count = |target: &Target| {
-                let curve = method.within(target, BOUND, MOST)?;
-                Ok(curve.map(|curve| curve.elements().len() as f64))
-            };
-            cells.push(family.mean(count)?);
+            cells.push(family.elements(method, BOUND)?);
         }
         for (spline, way) in SPLINES {
-            cells.push(family.mean(|target| {
-                for spans in 1..=MOST {
-                    if target.spline_misses(spline, spans)?[way] <= BOUND {
-                        return Ok(Some(spans as f64));
-                    }
-                }
-                Ok(None)
-            })?);
+            cells.push(family.spans(spline, way, BOUND)?);
         }
         let own = cells[0].unwrap_or(f64::NAN);
         let [spline, polygon] = [5, 6].map(|k| own / cells[k].unwrap_or(f64::NAN));
@@ -212,6 +228,38 @@ fn bound_table(report: &mut String, families: &[Family]) -> Result<()> {
          polygon, each by its nearest points. Waves in a plane change the side they bend to\n\
          twice each, and an element has one side: half a wave is the most that one can be.\n"
     )?;
+    Ok(())
+}
+
+/// How the ratios change with the bound.
+fn finer_table(report: &mut String, families: &[Family]) -> Result<()> {
+    writeln!(
+        report,
+        "## Within finer bounds\n\n\
+         Elements of the fit, at equal arc length, and edges of the polygon, by its nearest points.\n\n\
+         | strands | within | fit | polygon | ratio |\n|---|---|---|---|---|"
+    )?;
+    for family in families
+        .iter()
+        .filter(|family| FINER.contains(&&*family.name))
+    {
+        for bound in BOUNDS {
+            let fit = family.elements(Method::Fit, bound)?;
+            let polygon = family.spans(Spline::Polygon, 1, bound)?;
+            let ratio = fit
+                .zip(polygon)
+                .map_or(f64::NAN, |(fit, edges)| fit / edges);
+            writeln!(
+                report,
+                "| {} | {} % | {} | {} | {ratio:.2} |",
+                family.name,
+                100.0 * bound,
+                told(fit),
+                told(polygon),
+            )?;
+        }
+    }
+    writeln!(report)?;
     Ok(())
 }
 
