@@ -14,7 +14,7 @@
 //! - t is the mean weighted by ℓ_i |k_i|, as κτ B̂ in the document: a straight guide does
 //!   not wind, and its torsion, which is none, does not unwind the others.
 //!
-//! How the hair is turned at its root: [laid](super::laying) on the mean of the guides'
+//! How the hair is turned at its root: laid (`stages/laying`) on the mean of the guides'
 //! vertices.
 //!
 //! Along one hair each edge waits for the one before, so sixteen hairs are walked side by

@@ -16,7 +16,7 @@
 //! surface sees curls of opposite phase bend to opposite sides, and cancels them as a mean of
 //! vertices does; so each guide chooses its own: its first normal points to where it
 //! bends. How the hair is turned at its root is no matter of that frame: it is
-//! [laid](super::laying) on the mean of the guides' vertices, and by that the turns of the
+//! laid (`stages/laying`) on the mean of the guides' vertices, and by that the turns of the
 //! shares in the tangent plane are in it.
 //!
 //! Limits: what is finer than an element is left out, also of a hair that has one guide alone,
