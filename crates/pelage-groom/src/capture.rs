@@ -14,7 +14,7 @@ use crate::stages::clump::Member;
 use crate::stages::flyaway::Stray;
 use crate::stages::frizz::Frizz;
 use crate::stages::look::Look;
-use crate::stages::roots::{Root, root};
+use crate::stages::roots::{self, Root};
 use crate::stages::scale;
 use crate::stages::strand::{Bundle, Fiber};
 use crate::stages::weights::{Share, turn};
@@ -181,15 +181,14 @@ impl Plan {
         capture.hairs.clear();
         capture.places.clear();
         place(&mut capture.hairs, &mut capture.places);
-        let hairs = capture.hairs.iter().zip(&capture.places);
-        capture.roots.clear();
-        capture
-            .roots
-            .extend(hairs.map(|(&hair, &place)| root(hair, place, rest, groups)));
-        // By itself, so that the loads of many triangles overlap.
-        let frames = capture.places.iter().map(|place| rest.frame(place));
-        capture.frames.clear();
-        capture.frames.extend(frames);
+        let Capture {
+            hairs,
+            places,
+            roots,
+            frames,
+            ..
+        } = capture;
+        roots::roots((hairs, places), (rest, groups), roots, frames);
         capture.dropped = Dropped::default();
         let started = clock.stop(Stage::Roots, started);
         self.weigh(kind, capture);

@@ -6,7 +6,6 @@ use crate::curves::Curves;
 use crate::guide::refuse_far;
 use crate::guide_shapes::GuideShapes;
 use crate::plan::Plan;
-use crate::stages::roots::Root;
 use pelage_curves::Vec3;
 use pelage_surface::{Mesh, RootFrame};
 use std::sync::Arc;
@@ -121,9 +120,8 @@ impl Plan {
             return &capture.frames;
         }
         let surface = moment.surface.unwrap_or(self.rest());
-        let frame = |root: &Root| self.roots.frame(surface, &root.place, root.uv);
         posed.clear();
-        posed.extend(capture.roots.iter().map(frame));
+        self.roots.frames(surface, &capture.roots, posed);
         posed
     }
 }

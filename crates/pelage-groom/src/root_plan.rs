@@ -8,6 +8,7 @@ use crate::groom::Groom;
 use crate::groups::Groups;
 use crate::maps::{FieldMaker, ScalarField};
 use crate::recipe::{Pattern, Recipe, Segments};
+use crate::stages::roots::Root;
 use pelage_curves::Vec2;
 use pelage_surface::{
     BlueNoise, Mesh, PolygonMesh, RootFrame, RootSampler, Spread, SurfacePoint, VoxelRoots,
@@ -141,6 +142,16 @@ impl RootPlan {
         match &self.displacement {
             None => surface.frame(place),
             Some(field) => surface.displaced_frame(place, &field.displacement(uv)),
+        }
+    }
+
+    /// Appends [`frame`](Self::frame) of each of `roots` to `frames`.
+    pub(crate) fn frames(&self, surface: &Mesh, roots: &[Root], frames: &mut Vec<RootFrame>) {
+        if self.is_displaced() {
+            let frame = |root: &Root| self.frame(surface, &root.place, root.uv);
+            frames.extend(roots.iter().map(frame));
+        } else {
+            surface.frames(roots.iter().map(|root| root.place), frames);
         }
     }
 

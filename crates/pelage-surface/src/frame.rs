@@ -32,13 +32,11 @@ pub struct RootFrame {
 
 impl RootFrame {
     /// A frame from a normal and a tangent that need not be perpendicular or units.
-    #[inline]
+    #[inline(always)]
     pub fn new(position: Vec3, tangent: Vec3, normal: Vec3) -> Self {
-        let normal = normal.try_normalize().unwrap_or(Vec3::Z);
+        let normal = unit_or(normal, Vec3::Z);
         let part = tangent - normal * tangent.dot(normal);
-        let tangent = part
-            .try_normalize()
-            .unwrap_or_else(|| any_perpendicular(normal));
+        let tangent = unit_or(part, any_perpendicular(normal));
         Self {
             position,
             tangent,
@@ -94,15 +92,33 @@ impl Mesh {
         let t = point.triangle as usize;
         let position = weigh(self.corners(t), point.barycentric);
         let normal = weigh(self.normals()[t], point.barycentric);
-        let tangent = weigh(self.tangents()[t], point.barycentric);
+        RootFrame::new(position, self.tangent(point), normal)
+    }
+
+    /// Some vector along +u at `point`.
+    #[inline(always)]
+    pub(crate) fn tangent(&self, point: &SurfacePoint) -> Vec3 {
+        let corners = &self.tangents()[point.triangle as usize];
+        let tangent = weigh(*corners, point.barycentric);
         // Tangents that cancel (a sharp fold of the texture) leave the corner's own.
-        let tangent = if tangent.length_squared() > 1e-6 {
+        if tangent.length_squared() > 1e-6 {
             tangent
         } else {
-            self.tangents()[t][0]
-        };
-        RootFrame::new(position, tangent, normal)
+            corners[0]
+        }
     }
+}
+
+/// `vector` at length 1, or `otherwise` where it has none. Both are computed and one is
+/// chosen, so that many go side by side.
+#[inline(always)]
+fn unit_or(vector: Vec3, otherwise: Vec3) -> Vec3 {
+    let scale = vector.length_recip();
+    let has_length = scale.is_finite() & (scale > 0.0);
+    let unit = vector * scale;
+    Vec3::from_array(std::array::from_fn(|k| {
+        if has_length { unit[k] } else { otherwise[k] }
+    }))
 }
 
 #[inline]

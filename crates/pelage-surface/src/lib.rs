@@ -10,6 +10,7 @@ mod distribution;
 #[cfg(test)]
 mod fixture;
 mod frame;
+mod frames;
 mod hilbert;
 mod image_map;
 mod mesh;

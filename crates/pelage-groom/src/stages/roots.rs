@@ -5,7 +5,7 @@
 
 use crate::groups::Groups;
 use pelage_curves::{Vec2, Vec3};
-use pelage_surface::{Mesh, SurfacePoint};
+use pelage_surface::{Mesh, RootFrame, SurfacePoint};
 
 /// Where a hair grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,15 +22,26 @@ pub struct Root {
     pub group: u32,
 }
 
-/// The root of hair `hair`, which the sampler placed at `place`.
-#[inline]
-pub fn root(hair: u64, place: SurfacePoint, rest: &Mesh, groups: &Groups) -> Root {
-    let uv = rest.uv(&place);
-    Root {
-        hair,
-        place,
-        rest: rest.position(&place),
-        uv,
-        group: groups.at(uv),
-    }
+/// Puts the roots of `hairs`, which the sampler placed at `places`, into `roots`, and their
+/// frames on `rest` into `frames`; both are emptied first.
+pub(crate) fn roots(
+    (hairs, places): (&[u64], &[SurfacePoint]),
+    (rest, groups): (&Mesh, &Groups),
+    roots: &mut Vec<Root>,
+    frames: &mut Vec<RootFrame>,
+) {
+    frames.clear();
+    rest.frames(places.iter().copied(), frames);
+    roots.clear();
+    let placed = hairs.iter().zip(places).zip(&*frames);
+    roots.extend(placed.map(|((&hair, &place), frame)| {
+        let uv = rest.uv(&place);
+        Root {
+            hair,
+            place,
+            rest: frame.position,
+            uv,
+            group: groups.at(uv),
+        }
+    }));
 }
