@@ -55,34 +55,33 @@ impl ColorMix {
         }
     }
 
-    /// The linear RGB colours at each of `ts`, root 0, tip 1: all reds, all greens, all
-    /// blues.
+    /// Writes the linear RGB colours at each of `ts`, root 0, tip 1.
     #[inline(always)]
-    pub fn at<const N: usize>(&self, ts: &[f32; N]) -> [[f32; N]; 3] {
-        let mut colors = [[0.0; N]; 3];
+    pub fn at<const N: usize>(&self, ts: &[f32; N], colors: &mut [[f32; 3]; N]) {
         let mixed =
             |t: f32| -> [f32; 3] { std::array::from_fn(|k| self.root[k] + self.step[k] * t) };
         match self.space {
-            ColorSpace::Hsv => fill(&mut colors, ts, |t| rgb_from_hsv(mixed(t))),
-            ColorSpace::Oklab => fill(&mut colors, ts, |t| {
+            ColorSpace::Hsv => fill(colors, ts, |t| rgb_from_hsv(mixed(t))),
+            ColorSpace::Oklab => fill(colors, ts, |t| {
                 rgb_from_oklab(mixed(t)).map(|c| c.clamp(0.0, 1.0))
             }),
-            ColorSpace::Rgb => fill(&mut colors, ts, mixed),
+            ColorSpace::Rgb => fill(colors, ts, mixed),
         }
-        colors
     }
 }
 
 /// Writes `color` at each of `ts`, which is done for many at once.
 #[inline(always)]
 fn fill<const N: usize>(
-    [reds, greens, blues]: &mut [[f32; N]; 3],
+    colors: &mut [[f32; 3]; N],
     ts: &[f32; N],
     color: impl Fn(f32) -> [f32; 3],
 ) {
+    let mut parts = [[0.0; N]; 3];
     for k in 0..N {
-        [reds[k], greens[k], blues[k]] = color(ts[k]);
+        [parts[0][k], parts[1][k], parts[2][k]] = color(ts[k]);
     }
+    *colors = std::array::from_fn(|k| parts.map(|part| part[k]));
 }
 
 /// Hue in degrees 0..360, saturation and value in 0..=1. Everything is computed and the
@@ -168,9 +167,9 @@ mod tests {
         // Magenta-red (330°) to orange (30°): the middle is red, not cyan.
         let from = rgb_from_hsv([330.0, 1.0, 1.0]);
         let to = rgb_from_hsv([30.0, 1.0, 1.0]);
-        let middle = ColorMix::new(ColorSpace::Hsv, from, to)
-            .at(&[0.5])
-            .map(|part| part[0]);
+        let mut middle = [[0.0; 3]];
+        ColorMix::new(ColorSpace::Hsv, from, to).at(&[0.5], &mut middle);
+        let [middle] = middle;
         assert!(near(middle, [1.0, 0.0, 0.0], 1e-5), "{middle:?}");
     }
 

@@ -59,22 +59,23 @@ impl ColorProfile {
         mixes.extend(pieces.map(|i| ColorMix::new(space, colors(i), colors(i + 1))));
     }
 
-    /// The colours at each of `ts` of a hair with these mixes: all reds, greens, blues.
+    /// Writes the colours at each of `ts` of a hair with these mixes.
     #[inline(always)]
-    pub(crate) fn at<const N: usize>(&self, mixes: &[ColorMix], ts: &[f32; N]) -> [[f32; N]; 3] {
+    pub(crate) fn at<const N: usize>(
+        &self,
+        mixes: &[ColorMix],
+        ts: &[f32; N],
+        colors: &mut [[f32; 3]; N],
+    ) {
         if let ([mix], [0.0, 1.0]) = (mixes, &self.places[..]) {
-            return mix.at(ts);
+            return mix.at(ts, colors);
         }
-        let mut colors = [[0.0; N]; 3];
-        for (k, &t) in ts.iter().enumerate() {
+        for (color, &t) in colors.iter_mut().zip(ts) {
             let inner = &self.places[1..self.pieces()];
             let piece = inner.partition_point(|place| *place <= t);
             let (from, to) = (self.places[piece], self.places[piece + 1]);
             let inside = ((t - from) / (to - from)).clamp(0.0, 1.0);
-            for (all, [part]) in colors.iter_mut().zip(mixes[piece].at(&[inside])) {
-                all[k] = part;
-            }
+            mixes[piece].at(&[inside], std::array::from_mut(color));
         }
-        colors
     }
 }

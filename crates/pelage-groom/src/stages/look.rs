@@ -9,7 +9,7 @@ use crate::color_profile::ColorProfile;
 use crate::profile::{Profile, line};
 
 /// Vertices of a hair that are coloured together.
-const ROW: usize = 8;
+pub(crate) const ROW: usize = 8;
 
 /// A hair's values at root and tip; with a ramp, the first multiplies it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,10 +29,13 @@ pub(crate) struct LookFields {
     pub width: Profile<2>,
 }
 
-/// Vertices of a hair by their numbers.
+/// Where some vertices of a hair are on it.
 #[derive(Clone, Copy)]
 pub(crate) struct Vertices<'a> {
+    /// Numbers of the vertices in the whole hair; behind the last stand others, or none.
     pub numbers: &'a [u32],
+    /// How many there are.
+    pub count: usize,
     /// Segments of the whole hair.
     pub segments: u32,
     /// Where the hair is cut, 0..=1; there stands the last vertex.
@@ -40,44 +43,63 @@ pub(crate) struct Vertices<'a> {
 }
 
 impl Vertices<'_> {
-    /// Where those of row `row` are on the hair.
+    /// Where the vertices from `first` on are on the hair, 0 at its root, 1 at its tip.
     #[inline(always)]
-    fn places(&self, row: usize, numbers: &[u32]) -> [f32; ROW] {
+    fn places(&self, first: usize) -> [f32; ROW] {
         let step = 1.0 / self.segments.max(1) as f32;
-        let mut ts = [0.0; ROW];
-        for (t, &number) in ts.iter_mut().zip(numbers) {
-            *t = number as f32 * step;
-        }
-        let last = self.numbers.len().wrapping_sub(1 + row * ROW);
-        if let Some(t) = ts.get_mut(last).filter(|_| self.cut < 1.0) {
-            *t = self.cut;
+        let rest = &self.numbers[first..];
+        // Read at once: numbers that are put together one by one would be waited for.
+        let numbers = rest.first_chunk().copied().unwrap_or_else(|| {
+            let mut row = [0; ROW];
+            row[..rest.len()].copy_from_slice(rest);
+            row
+        });
+        let mut ts = numbers.map(|number: u32| number as f32 * step);
+        if self.cut < 1.0 {
+            let last = self.count.wrapping_sub(1 + first);
+            ts.get_mut(last).into_iter().for_each(|t| *t = self.cut);
         }
         ts
     }
 }
 
-/// Writes the values at `vertices` of a hair of the look `look` and the colours `mixes`;
-/// the three slices are as long as there are vertices.
+/// What looks are written to: an entry a vertex, and [`ROW`] more behind the last.
+pub(crate) struct Written<'a> {
+    pub colors: &'a mut [[f32; 3]],
+    pub opacities: &'a mut [f32],
+    pub widths: &'a mut [f32],
+}
+
+impl Written<'_> {
+    /// Rows of colours, opacities and widths from the entry `start` on.
+    #[inline(always)]
+    fn rows(&mut self, start: usize) -> impl Iterator<Item = WrittenRow<'_>> {
+        let colors = self.colors[start..].as_chunks_mut().0.iter_mut();
+        let opacities = self.opacities[start..].as_chunks_mut().0.iter_mut();
+        let widths = self.widths[start..].as_chunks_mut().0.iter_mut();
+        colors.zip(opacities).zip(widths).map(|((c, o), w)| (c, o, w))
+    }
+}
+
+type WrittenRow<'a> = (&'a mut [[f32; 3]; ROW], &'a mut [f32; ROW], &'a mut [f32; ROW]);
+
+/// Writes the values at `vertices` of a hair of the look `look` and the colours `mixes`, from
+/// the entry `start` of `written` on. Rows are written whole: less than one row of entries
+/// behind the last vertex is written too, which is left to the next hair.
 #[inline(always)]
 pub(crate) fn along(
     fields: &LookFields,
     look: &Look,
     mixes: &[ColorMix],
     vertices: Vertices,
-    colors: &mut [[f32; 3]],
-    opacities: &mut [f32],
-    widths: &mut [f32],
+    start: usize,
+    written: &mut Written,
 ) {
-    for (row, numbers) in vertices.numbers.chunks(ROW).enumerate() {
-        let first = row * ROW;
-        let ts = vertices.places(row, numbers);
-        let [reds, greens, blues] = fields.color.at(mixes, &ts);
-        let opacity = fields.opacity.row(|_| look.opacity, &ts, line);
-        let width = fields.width.row(|_| look.width, &ts, line);
-        for k in 0..numbers.len() {
-            colors[first + k] = [reds[k], greens[k], blues[k]];
-            opacities[first + k] = opacity[k];
-            widths[first + k] = width[k];
-        }
+    let rows = written.rows(start).zip((0..vertices.count).step_by(ROW));
+    for ((colors, opacities, widths), first) in rows {
+        let ts = vertices.places(first);
+        fields.color.at(mixes, &ts, colors);
+        *opacities = fields.opacity.row(|_| look.opacity, &ts, line);
+        *widths = fields.width.row(|_| look.width, &ts, line);
     }
 }
