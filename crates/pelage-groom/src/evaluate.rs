@@ -9,7 +9,7 @@ use crate::plan::Plan;
 use crate::pose::Posed;
 use crate::shape::Shapes;
 use crate::stages::{frames, look};
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, Simd, dispatch};
 use pelage_curves::FrameScratch;
 use pelage_strands::{StrandBuffer, StrandMeta};
 use pelage_surface::RootFrame;
@@ -54,8 +54,7 @@ impl Plan {
         self.shape(capture, frames, &moment, shapes, clock);
         let started = clock.start();
         dispatch!(Level::new(), simd => {
-            let _ = simd;
-            self.lay_out(capture, shapes, kept, out)
+            self.lay_out(simd, capture, shapes, kept, out)
         });
         let started = clock.stop(Stage::Look, started);
         if self.normals {
@@ -71,8 +70,9 @@ impl Plan {
     /// Writes everything but normals, which get their length; and which curves are written to
     /// `kept`.
     #[inline(always)]
-    fn lay_out(
+    fn lay_out<S: Simd>(
         &self,
+        simd: S,
         capture: &Capture,
         shapes: &Shapes,
         kept: &mut Vec<Kept>,
@@ -89,7 +89,7 @@ impl Plan {
             hair: (curve / fibers) as u32,
         }));
         out.extend_meta(kept.iter().map(|kept| self.meta(capture, shapes, kept)));
-        self.color(capture, shapes, kept, out);
+        self.color(simd, capture, shapes, kept, out);
         if self.normals {
             out.normals.resize(out.points.len(), [0.0; 3]);
         }
@@ -115,7 +115,14 @@ impl Plan {
 
     /// Writes the looks of the curves `kept`.
     #[inline(always)]
-    fn color(&self, capture: &Capture, shapes: &Shapes, kept: &[Kept], out: &mut StrandBuffer) {
+    fn color<S: Simd>(
+        &self,
+        simd: S,
+        capture: &Capture,
+        shapes: &Shapes,
+        kept: &[Kept],
+        out: &mut StrandBuffer,
+    ) {
         let (fields, vertices) = (&self.fields.look, out.points.len());
         let pieces = fields.color.pieces();
         out.colors.resize(vertices + look::ROW, [0.0; 3]);
@@ -136,7 +143,15 @@ impl Plan {
                 count: shapes.stay.numbers(kept.curve as usize).len(),
             };
             let mixes = &capture.mixes[hair * pieces..][..pieces];
-            look::along(fields, &capture.looks[hair], mixes, vertices, start, &mut written);
+            look::along(
+                simd,
+                fields,
+                &capture.looks[hair],
+                mixes,
+                vertices,
+                start,
+                &mut written,
+            );
             start += vertices.count;
         }
         out.colors.truncate(vertices);

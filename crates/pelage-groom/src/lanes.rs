@@ -5,8 +5,10 @@
 //! not wait for each other. What is done is done lane by lane, so a hair has the same bits
 //! whatever its neighbours and whatever the processor's vectors.
 
+use fearless_simd::{Simd, SimdBase, f32x16};
 use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
+use std::ops::{Add, Mul};
 
 /// Hairs side by side: two of the widest common vectors.
 pub const LANES: usize = 16;
@@ -14,11 +16,62 @@ pub const LANES: usize = 16;
 /// One number of each of the hairs that are side by side.
 pub type Row = [f32; LANES];
 
+/// A [`Row`] in the registers of processors with the instructions `S`.
+pub(crate) type Number<S> = f32x16<S>;
+
+/// [`Rows`] in registers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vectors<S: Simd>(pub [Number<S>; 3]);
+
+impl<S: Simd> Vectors<S> {
+    /// The same, to be kept in memory.
+    #[inline(always)]
+    pub(crate) fn rows(self) -> Rows {
+        Rows(self.0.map(|number| number.to_array()))
+    }
+}
+
+impl<S: Simd> Add for Vectors<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let ([a, b, c], [x, y, z]) = (self.0, other.0);
+        Self([a + x, b + y, c + z])
+    }
+}
+
+/// Part by part.
+impl<S: Simd> Mul for Vectors<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let ([a, b, c], [x, y, z]) = (self.0, other.0);
+        Self([a * x, b * y, c * z])
+    }
+}
+
+impl<S: Simd> Mul<Number<S>> for Vectors<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: Number<S>) -> Self {
+        Self(self.0.map(|part| part * factor))
+    }
+}
+
 /// One vector of each: all x, all y, all z.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rows(pub [Row; 3]);
 
 impl Rows {
+    /// The same in registers.
+    #[inline(always)]
+    pub(crate) fn load<S: Simd>(&self, simd: S) -> Vectors<S> {
+        Vectors([0, 1, 2].map(|k| Number::load_array_ref(simd, &self.0[k])))
+    }
+
     /// The vector in `lane`.
     #[inline(always)]
     pub fn get(&self, lane: usize) -> Vec3 {
@@ -55,6 +108,17 @@ impl Rows {
     }
 }
 
+/// Two numbers of each of the things that are side by side, [`LANES`] at most; zero in the
+/// lanes behind them.
+#[inline(always)]
+pub(crate) fn ends<T>(things: &[T], numbers: impl Fn(&T) -> [f32; 2]) -> [Row; 2] {
+    let mut rows = [[0.0; LANES]; 2];
+    for (lane, one) in things.iter().enumerate() {
+        [rows[0][lane], rows[1][lane]] = numbers(one);
+    }
+    rows
+}
+
 /// Root frames side by side.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Frames {
@@ -76,15 +140,11 @@ impl Frames {
         }
     }
 
-    /// Where the local point `local` of `lane` is in the space of its frame.
+    /// Where local points are in the space of their frames.
     #[inline(always)]
-    pub(crate) fn place(&self, lane: usize, local: Vec3) -> Vec3 {
-        let frame = RootFrame {
-            position: self.position.get(lane),
-            tangent: self.tangent.get(lane),
-            binormal: self.binormal.get(lane),
-            normal: self.normal.get(lane),
-        };
-        frame.position + frame.vector(local)
+    pub(crate) fn place<S: Simd>(&self, simd: S, local: Vectors<S>) -> Vectors<S> {
+        let [x, y, z] = local.0;
+        let across = self.tangent.load(simd) * x + self.binormal.load(simd) * y;
+        self.position.load(simd) + (across + self.normal.load(simd) * z)
     }
 }

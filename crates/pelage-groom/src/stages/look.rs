@@ -7,6 +7,7 @@
 use crate::color::{ColorMix, ColorSpace};
 use crate::color_profile::ColorProfile;
 use crate::profile::{Profile, line};
+use fearless_simd::{Bytes, Simd, SimdBase, SimdInt, SimdSplit, f32x8, f64x4, u32x8};
 
 /// Vertices of a hair that are coloured together.
 pub(crate) const ROW: usize = 8;
@@ -45,7 +46,7 @@ pub(crate) struct Vertices<'a> {
 impl Vertices<'_> {
     /// Where the vertices from `first` on are on the hair, 0 at its root, 1 at its tip.
     #[inline(always)]
-    fn places(&self, first: usize) -> [f32; ROW] {
+    fn places<S: Simd>(&self, simd: S, first: usize) -> f32x8<S> {
         let step = 1.0 / self.segments.max(1) as f32;
         let rest = &self.numbers[first..];
         // Read at once: numbers that are put together one by one would be waited for.
@@ -54,10 +55,14 @@ impl Vertices<'_> {
             row[..rest.len()].copy_from_slice(rest);
             row
         });
-        let mut ts = numbers.map(|number: u32| number as f32 * step);
+        let numbers: f32x8<S> = u32x8::load_array(simd, numbers).to_float();
+        let mut ts = numbers * step;
         if self.cut < 1.0 {
             let last = self.count.wrapping_sub(1 + first);
-            ts.get_mut(last).into_iter().for_each(|t| *t = self.cut);
+            let at = ts.as_mut_slice().get_mut(last);
+            if let Some(t) = at {
+                *t = self.cut;
+            }
         }
         ts
     }
@@ -70,24 +75,12 @@ pub(crate) struct Written<'a> {
     pub widths: &'a mut [f32],
 }
 
-impl Written<'_> {
-    /// Rows of colours, opacities and widths from the entry `start` on.
-    #[inline(always)]
-    fn rows(&mut self, start: usize) -> impl Iterator<Item = WrittenRow<'_>> {
-        let colors = self.colors[start..].as_chunks_mut().0.iter_mut();
-        let opacities = self.opacities[start..].as_chunks_mut().0.iter_mut();
-        let widths = self.widths[start..].as_chunks_mut().0.iter_mut();
-        colors.zip(opacities).zip(widths).map(|((c, o), w)| (c, o, w))
-    }
-}
-
-type WrittenRow<'a> = (&'a mut [[f32; 3]; ROW], &'a mut [f32; ROW], &'a mut [f32; ROW]);
-
 /// Writes the values at `vertices` of a hair of the look `look` and the colours `mixes`, from
-/// the entry `start` of `written` on. Rows are written whole: less than one row of entries
-/// behind the last vertex is written too, which is left to the next hair.
+/// the entry `start` of `written` on. Rows are written whole: up to [`ROW`] entries behind
+/// the last vertex are written too, which is left to the next hair.
 #[inline(always)]
-pub(crate) fn along(
+pub(crate) fn along<S: Simd>(
+    simd: S,
     fields: &LookFields,
     look: &Look,
     mixes: &[ColorMix],
@@ -95,11 +88,40 @@ pub(crate) fn along(
     start: usize,
     written: &mut Written,
 ) {
-    let rows = written.rows(start).zip((0..vertices.count).step_by(ROW));
-    for ((colors, opacities, widths), first) in rows {
-        let ts = vertices.places(first);
-        fields.color.at(mixes, &ts, colors);
-        *opacities = fields.opacity.row(|_| look.opacity, &ts, line);
-        *widths = fields.width.row(|_| look.width, &ts, line);
+    let ([o, p], [w, x]) = (look.opacity, look.width);
+    let opacity = [f32x8::splat(simd, o), f32x8::splat(simd, p)];
+    let width = [f32x8::splat(simd, w), f32x8::splat(simd, x)];
+    for first in (0..vertices.count).step_by(ROW) {
+        let ts = vertices.places(simd, first);
+        let colors = fields.color.at(mixes, ts);
+        write_colors(colors, &mut written.colors[start + first..]);
+        let row = start + first..start + first + ROW;
+        let opacities = fields.opacity.row(opacity, ts, line);
+        opacities.store_slice(&mut written.opacities[row.clone()]);
+        let widths = fields.width.row(width, ts, line);
+        widths.store_slice(&mut written.widths[row]);
     }
+}
+
+/// Writes all reds, greens and blues colour by colour to the first of `colors`, of which there
+/// is at least one more.
+#[inline(always)]
+fn write_colors<S: Simd>([r, g, b]: [f32x8<S>; 3], colors: &mut [[f32; 3]]) {
+    // Four numbers a colour, the last of which the next one overwrites.
+    let numbers = &mut colors.as_flattened_mut()[..3 * ROW + 1];
+    write_half(r.zip_low(g), b.zip_low(b), &mut numbers[..13]);
+    write_half(r.zip_high(g), b.zip_high(b), &mut numbers[12..]);
+}
+
+/// Writes four colours of which reds and greens take turns in `rg`, and all blues are twice
+/// in `bb`.
+#[inline(always)]
+fn write_half<S: Simd>(rg: f32x8<S>, bb: f32x8<S>, numbers: &mut [f32]) {
+    let (rg, bb): (f64x4<S>, f64x4<S>) = (rg.bitcast(), bb.bitcast());
+    let (low, high): (f32x8<S>, f32x8<S>) = (rg.zip_low(bb).bitcast(), rg.zip_high(bb).bitcast());
+    let ((a, b), (c, d)) = (low.split(), high.split());
+    a.store_slice(&mut numbers[..4]);
+    b.store_slice(&mut numbers[3..7]);
+    c.store_slice(&mut numbers[6..10]);
+    d.store_slice(&mut numbers[9..13]);
 }
