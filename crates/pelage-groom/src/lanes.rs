@@ -5,7 +5,7 @@
 //! not wait for each other. What is done is done lane by lane, so a hair has the same bits
 //! whatever its neighbours and whatever the processor's vectors.
 
-use fearless_simd::{Simd, SimdBase, f32x16};
+use fearless_simd::{Bytes, Simd, SimdBase, SimdSplit, f32x4, f32x8, f32x16, f64x4};
 use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
 use std::ops::{Add, Mul};
@@ -72,6 +72,14 @@ impl Rows {
         Vectors([0, 1, 2].map(|k| Number::load_array_ref(simd, &self.0[k])))
     }
 
+    /// The vectors of the first [`HALF`] of the lanes, and those of the others.
+    #[inline(always)]
+    pub(crate) fn halves<S: Simd>(&self, simd: S) -> [[Vec3; HALF]; 2] {
+        let [x, y, z] = self.load(simd).0;
+        let ((x, u), (y, v), (z, w)) = (x.split(), y.split(), z.split());
+        [vectors([x, y, z]), vectors([u, v, w])]
+    }
+
     /// The vector in `lane`.
     #[inline(always)]
     pub fn get(&self, lane: usize) -> Vec3 {
@@ -106,6 +114,36 @@ impl Rows {
         }
         rows
     }
+}
+
+/// Four rows of eight numbers turned: the first of each, their seconds, and so on.
+#[inline(always)]
+pub(crate) fn turned<S: Simd>([a, b, c, d]: [f32x8<S>; 4]) -> [f32x4<S>; 8] {
+    // In pairs, and pairs of those; a pair is moved as one number of twice the size.
+    let (low, high) = ((a.zip_low(b), c.zip_low(d)), (a.zip_high(b), c.zip_high(d)));
+    let (low, high) = (pairs(low.0, low.1), pairs(high.0, high.1));
+    let ((a, b), (c, d)) = (low[0].split(), low[1].split());
+    let ((e, f), (g, h)) = (high[0].split(), high[1].split());
+    [a, b, c, d, e, f, g, h]
+}
+
+#[inline(always)]
+fn pairs<S: Simd>(a: f32x8<S>, b: f32x8<S>) -> [f32x8<S>; 2] {
+    let (a, b): (f64x4<S>, f64x4<S>) = (a.bitcast(), b.bitcast());
+    [a.zip_low(b).bitcast(), a.zip_high(b).bitcast()]
+}
+
+/// Half the [`LANES`].
+pub(crate) const HALF: usize = LANES / 2;
+
+/// Vectors of all x, all y and all z.
+#[inline(always)]
+fn vectors<S: Simd>([x, y, z]: [f32x8<S>; 3]) -> [Vec3; HALF] {
+    let mut vectors = [Vec3::ZERO; HALF];
+    for (vector, parts) in vectors.iter_mut().zip(turned([x, y, z, z])) {
+        *vector = Vec3::new(parts[0], parts[1], parts[2]);
+    }
+    vectors
 }
 
 /// Two numbers of each of the things that are side by side, [`LANES`] at most; zero in the

@@ -122,7 +122,7 @@ impl Plan {
                 let frames = Frames::of(&frames[local.hairs(block)]);
                 world::to_world(simd, &frames, local.block_mut(block));
             }
-            local.unroll(curves);
+            local.unroll(simd, curves);
         });
         let started = clock.stop(Stage::World, started);
         self.draw_together(capture, moment.middles, before, curves);

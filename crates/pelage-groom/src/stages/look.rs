@@ -6,8 +6,9 @@
 
 use crate::color::{ColorMix, ColorSpace};
 use crate::color_profile::ColorProfile;
+use crate::lanes::turned;
 use crate::profile::{Profile, line};
-use fearless_simd::{Bytes, Simd, SimdBase, SimdInt, SimdSplit, f32x8, f64x4, u32x8};
+use fearless_simd::{Simd, SimdBase, SimdInt, f32x8, u32x8};
 
 /// Vertices of a hair that are coloured together.
 pub(crate) const ROW: usize = 8;
@@ -109,19 +110,7 @@ pub(crate) fn along<S: Simd>(
 fn write_colors<S: Simd>([r, g, b]: [f32x8<S>; 3], colors: &mut [[f32; 3]]) {
     // Four numbers a colour, the last of which the next one overwrites.
     let numbers = &mut colors.as_flattened_mut()[..3 * ROW + 1];
-    write_half(r.zip_low(g), b.zip_low(b), &mut numbers[..13]);
-    write_half(r.zip_high(g), b.zip_high(b), &mut numbers[12..]);
-}
-
-/// Writes four colours of which reds and greens take turns in `rg`, and all blues are twice
-/// in `bb`.
-#[inline(always)]
-fn write_half<S: Simd>(rg: f32x8<S>, bb: f32x8<S>, numbers: &mut [f32]) {
-    let (rg, bb): (f64x4<S>, f64x4<S>) = (rg.bitcast(), bb.bitcast());
-    let (low, high): (f32x8<S>, f32x8<S>) = (rg.zip_low(bb).bitcast(), rg.zip_high(bb).bitcast());
-    let ((a, b), (c, d)) = (low.split(), high.split());
-    a.store_slice(&mut numbers[..4]);
-    b.store_slice(&mut numbers[3..7]);
-    c.store_slice(&mut numbers[6..10]);
-    d.store_slice(&mut numbers[9..13]);
+    for (k, color) in turned([r, g, b, b]).iter().enumerate() {
+        color.store_slice(&mut numbers[3 * k..3 * k + 4]);
+    }
 }
