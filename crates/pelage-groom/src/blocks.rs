@@ -138,7 +138,7 @@ impl Blocks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fearless_simd::Fallback;
+    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
 
     proptest! {
@@ -152,7 +152,7 @@ mod tests {
                 blocks.write(i, &hair);
             }
             let (mut curves, mut hair) = (Curves::default(), Vec::new());
-            blocks.unroll(Fallback::new(), &mut curves);
+            dispatch!(Level::new(), simd => blocks.unroll(simd, &mut curves));
             prop_assert_eq!(curves.len(), lengths.len());
             for (i, &length) in lengths.iter().enumerate() {
                 let expected: Vec<Vec3> = (0..length as usize).map(|k| vertex(i, k)).collect();

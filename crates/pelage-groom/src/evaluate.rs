@@ -78,7 +78,9 @@ impl Plan {
         kept: &mut Vec<Kept>,
         out: &mut StrandBuffer,
     ) {
-        out.clear();
+        // Arrays that keep their length need not be filled before they are written.
+        out.offsets.truncate(1);
+        out.points.clear();
         kept.clear();
         shapes.write(&mut out.points);
         let fibers = self.fibers();
@@ -90,9 +92,8 @@ impl Plan {
         }));
         out.extend_meta(kept.iter().map(|kept| self.meta(capture, shapes, kept)));
         self.color(simd, capture, shapes, kept, out);
-        if self.normals {
-            out.normals.resize(out.points.len(), [0.0; 3]);
-        }
+        let normals = if self.normals { out.points.len() } else { 0 };
+        out.normals.resize(normals, [0.0; 3]);
     }
 
     /// Where the vertices of a curve end, and its record.

@@ -144,14 +144,16 @@ fn profile<S: Simd>([root, tip]: [Number<S>; 2], t: Number<S>) -> Number<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fearless_simd::Fallback;
 
     #[test]
     fn root_frizz_bends_the_middle_and_tip_frizz_the_tip() {
-        let number = |x: f32| Number::splat(Fallback::new(), x);
-        let bent = |ends: [f32; 2]| {
-            [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| profile(ends.map(number), number(t))[0])
+        let at = |[root, tip]: [f32; 2], t: f32| {
+            dispatch!(Level::new(), simd => {
+                let ends = [Number::splat(simd, root), Number::splat(simd, tip)];
+                profile(ends, Number::splat(simd, t))[0]
+            })
         };
+        let bent = |ends| [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| at(ends, t));
         assert_eq!(bent([1.0, 0.0]), [0.0, 0.75, 1.0, 0.75, 0.0]);
         assert_eq!(bent([0.0, 1.0]), [0.0, 0.0625, 0.25, 0.5625, 1.0]);
         // Nothing is bent more than the larger of the two says.
