@@ -58,21 +58,15 @@ pub(crate) fn interpolate_with<S: Simd>(
     let longest = hairs.iter().map(|hair| hair.vertices).max().unwrap_or(0);
     for row in 0..longest.div_ceil(WIDTH) {
         let [a, b, c, d] = hairs;
-        let mixed = [
+        let [a, b, c, d] = [
             a.row(simd, row),
             b.row(simd, row),
             c.row(simd, row),
             d.row(simd, row),
         ];
         let vertices = &mut rows[row * WIDTH..longest.min((row + 1) * WIDTH)];
-        for axis in 0..3 {
-            let numbers = turned([
-                mixed[0][axis],
-                mixed[1][axis],
-                mixed[2][axis],
-                mixed[3][axis],
-            ]);
-            for (vertex, numbers) in vertices.iter_mut().zip(&numbers) {
+        for (axis, (((a, b), c), d)) in a.into_iter().zip(b).zip(c).zip(d).enumerate() {
+            for (vertex, numbers) in vertices.iter_mut().zip(&turned([a, b, c, d])) {
                 numbers.store_slice(&mut vertex.0[axis][lane..lane + FOUR]);
             }
         }
