@@ -137,12 +137,17 @@ impl FrameScratch {
         let longest = curves.iter().map(|curve| curve.len()).max().unwrap_or(0);
         self.points.resize(longest, Row::ZERO);
         self.normals.resize(longest, Row::ZERO);
-        for (i, row) in self.points.iter_mut().enumerate() {
-            for (four, curves) in curves.chunks_exact(4).enumerate() {
-                let vertex = |curve: &[Vec3]| curve.get(i).or(curve.last()).copied();
-                let column = |k: usize| vertex(curves[k]).unwrap_or(Vec3::ZERO).extend(0.0);
-                let columns = Mat4::from_cols(column(0), column(1), column(2), column(3));
-                row.set_four(four, columns.transpose());
+        for (four, curves) in curves.chunks_exact(4).enumerate() {
+            let all = curves.iter().map(|curve| curve.len()).min().unwrap_or(0);
+            let (whole, rest) = self.points.split_at_mut(all);
+            let [a, b, c, d] = [0, 1, 2, 3].map(|k| &curves[k][..all]);
+            for (i, row) in whole.iter_mut().enumerate() {
+                row.set_four(four, columns([a[i], b[i], c[i], d[i]]));
+            }
+            let vertex = |curve: &[Vec3], i: usize| curve.get(i).or(curve.last()).copied();
+            for (i, row) in (all..).zip(rest) {
+                let vertex = |k: usize| vertex(curves[k], i).unwrap_or(Vec3::ZERO);
+                row.set_four(four, columns([0, 1, 2, 3].map(vertex)));
             }
         }
     }
@@ -173,15 +178,24 @@ impl FrameScratch {
 
     #[inline(always)]
     fn store(&self, ranges: &[Range<usize>], normals: &mut [Vec3]) {
-        for (i, row) in self.normals.iter().enumerate() {
-            for (four, ranges) in ranges.chunks(4).enumerate() {
+        for (four, ranges) in ranges.chunks(4).enumerate() {
+            let all = ranges.iter().map(|range| range.len()).min().unwrap_or(0);
+            for (i, row) in self.normals.iter().enumerate() {
                 let columns = row.four(four).transpose();
-                for (k, range) in ranges.iter().enumerate().filter(|(_, r)| i < r.len()) {
-                    normals[range.start + i] = columns.col(k).truncate();
+                for (k, range) in ranges.iter().enumerate() {
+                    if i < all || i < range.len() {
+                        normals[range.start + i] = columns.col(k).truncate();
+                    }
                 }
             }
         }
     }
+}
+
+/// x, y and z of four vectors.
+#[inline(always)]
+fn columns([a, b, c, d]: [Vec3; 4]) -> Mat4 {
+    Mat4::from_cols(a.extend(0.0), b.extend(0.0), c.extend(0.0), d.extend(0.0)).transpose()
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@
 //! blocks of [`LANES`]: the first vertices of all, their second vertices, and so on.
 
 use crate::curves::Curves;
-use crate::lanes::{LANES, Row, Rows};
+use crate::lanes::{HALF, LANES, Row, Rows};
+use fearless_simd::Simd;
 use pelage_curves::Vec3;
 use std::ops::Range;
 
@@ -68,6 +69,12 @@ impl Blocks {
         &mut self.rows[range]
     }
 
+    /// Vertices of hair `i`.
+    #[inline(always)]
+    pub(crate) fn length(&self, i: usize) -> usize {
+        self.lengths[i] as usize
+    }
+
     /// Vertices of the hairs of a block.
     #[inline(always)]
     pub(crate) fn lengths(&self, block: usize) -> &[u32] {
@@ -102,15 +109,19 @@ impl Blocks {
 
     /// Writes the hairs to `curves`, one after the other.
     #[inline(always)]
-    pub(crate) fn unroll(&self, curves: &mut Curves) {
+    pub(crate) fn unroll<S: Simd>(&self, simd: S, curves: &mut Curves) {
         curves.lay_out(self.lengths.iter().copied());
         for block in 0..self.blocks() {
-            let (rows, lengths) = (self.block(block), self.lengths(block));
+            let lengths = self.lengths(block);
             let starts = &curves.starts[block * LANES..][..lengths.len()];
-            for (lane, (&start, &length)) in starts.iter().zip(lengths).enumerate() {
-                let vertices = &mut curves.vertices[start as usize..][..length as usize];
-                for (vertex, row) in vertices.iter_mut().zip(rows) {
-                    *vertex = row.get(lane);
+            for (number, row) in self.block(block).iter().enumerate() {
+                for (half, hairs) in row.halves(simd).into_iter().enumerate() {
+                    let first = half * HALF;
+                    for (lane, vertex) in (first..lengths.len()).zip(hairs) {
+                        if number < lengths[lane] as usize {
+                            curves.vertices[starts[lane] as usize + number] = vertex;
+                        }
+                    }
                 }
             }
         }
@@ -127,6 +138,7 @@ impl Blocks {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
 
     proptest! {
@@ -140,7 +152,7 @@ mod tests {
                 blocks.write(i, &hair);
             }
             let (mut curves, mut hair) = (Curves::default(), Vec::new());
-            blocks.unroll(&mut curves);
+            dispatch!(Level::new(), simd => blocks.unroll(simd, &mut curves));
             prop_assert_eq!(curves.len(), lengths.len());
             for (i, &length) in lengths.iter().enumerate() {
                 let expected: Vec<Vec3> = (0..length as usize).map(|k| vertex(i, k)).collect();

@@ -1,5 +1,8 @@
 //! Mixing two colours in HSV, Oklab or RGB.
 
+use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8};
+use std::ops::{Add, Mul, Neg, Sub};
+
 /// The space in which root and tip colours are mixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColorSpace {
@@ -58,30 +61,72 @@ impl ColorMix {
     /// The linear RGB colours at each of `ts`, root 0, tip 1: all reds, all greens, all
     /// blues.
     #[inline(always)]
-    pub fn at<const N: usize>(&self, ts: &[f32; N]) -> [[f32; N]; 3] {
-        let mut colors = [[0.0; N]; 3];
-        let mixed =
-            |t: f32| -> [f32; 3] { std::array::from_fn(|k| self.root[k] + self.step[k] * t) };
+    pub(crate) fn at<V: Channel>(&self, ts: V) -> [V; 3] {
+        // No closures, here and below: those that are called often are not inlined, and then
+        // nothing stays in registers.
+        let ([a, b, c], [x, y, z]) = (self.root, self.step);
+        let mixed = [ts * x + a, ts * y + b, ts * z + c];
         match self.space {
-            ColorSpace::Hsv => fill(&mut colors, ts, |t| rgb_from_hsv(mixed(t))),
-            ColorSpace::Oklab => fill(&mut colors, ts, |t| {
-                rgb_from_oklab(mixed(t)).map(|c| c.clamp(0.0, 1.0))
-            }),
-            ColorSpace::Rgb => fill(&mut colors, ts, mixed),
+            ColorSpace::Hsv => from_hsv(mixed),
+            ColorSpace::Oklab => {
+                let [r, g, b] = from_oklab(mixed);
+                [
+                    r.between_0_and_1(),
+                    g.between_0_and_1(),
+                    b.between_0_and_1(),
+                ]
+            }
+            ColorSpace::Rgb => mixed,
         }
-        colors
     }
 }
 
-/// Writes `color` at each of `ts`, which is done for many at once.
-#[inline(always)]
-fn fill<const N: usize>(
-    [reds, greens, blues]: &mut [[f32; N]; 3],
-    ts: &[f32; N],
-    color: impl Fn(f32) -> [f32; 3],
-) {
-    for k in 0..N {
-        [reds[k], greens[k], blues[k]] = color(ts[k]);
+/// A number, or many side by side, that colours are made of.
+pub(crate) trait Channel:
+    Copy
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Add<f32, Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Mul<f32, Output = Self>
+{
+    fn whole(self) -> Self;
+    fn smaller(self, other: Self) -> Self;
+    fn between_0_and_1(self) -> Self;
+}
+
+impl Channel for f32 {
+    #[inline(always)]
+    fn whole(self) -> Self {
+        self.floor()
+    }
+
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        self.min(other)
+    }
+
+    #[inline(always)]
+    fn between_0_and_1(self) -> Self {
+        self.clamp(0.0, 1.0)
+    }
+}
+
+impl<S: Simd> Channel for f32x8<S> {
+    #[inline(always)]
+    fn whole(self) -> Self {
+        self.floor()
+    }
+
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        self.min(other)
+    }
+
+    #[inline(always)]
+    fn between_0_and_1(self) -> Self {
+        self.max(0.0).min(1.0)
     }
 }
 
@@ -110,14 +155,26 @@ pub fn hsv_from_rgb([r, g, b]: [f32; 3]) -> [f32; 3] {
 
 /// The inverse of [`hsv_from_rgb`]; any hue, taken modulo 360.
 #[inline(always)]
-pub fn rgb_from_hsv([hue, saturation, value]: [f32; 3]) -> [f32; 3] {
-    let sector = hue * (1.0 / 60.0);
-    let part = |n: f32| {
-        let k = n + sector;
-        let k = k - (k * (1.0 / 6.0)).floor() * 6.0;
-        value - value * saturation * k.min(4.0 - k).clamp(0.0, 1.0)
-    };
-    [part(5.0), part(3.0), part(1.0)]
+pub fn rgb_from_hsv(hsv: [f32; 3]) -> [f32; 3] {
+    from_hsv(hsv)
+}
+
+#[inline(always)]
+fn from_hsv<V: Channel>([hue, saturation, value]: [V; 3]) -> [V; 3] {
+    let (sector, chroma) = (hue * (1.0 / 60.0), value * saturation);
+    [
+        value - chroma * away(sector + 5.0),
+        value - chroma * away(sector + 3.0),
+        value - chroma * away(sector + 1.0),
+    ]
+}
+
+/// What part of the chroma a primary colour lacks, 0..=1, by the sectors of hue from where it
+/// begins to.
+#[inline(always)]
+fn away<V: Channel>(sectors: V) -> V {
+    let k = sectors - (sectors * (1.0 / 6.0)).whole() * 6.0;
+    k.smaller(-k + 4.0).between_0_and_1()
 }
 
 /// Oklab of a linear RGB colour.
@@ -134,16 +191,25 @@ pub fn oklab_from_rgb([r, g, b]: [f32; 3]) -> [f32; 3] {
 
 /// The inverse of [`oklab_from_rgb`].
 #[inline(always)]
-pub fn rgb_from_oklab([l, a, b]: [f32; 3]) -> [f32; 3] {
-    let cube = |x: f32| x * x * x;
-    let p = cube(l + 0.396_337_78 * a + 0.215_803_76 * b);
-    let q = cube(l - 0.105_561_346 * a - 0.063_854_17 * b);
-    let r = cube(l - 0.089_484_18 * a - 1.291_485_5 * b);
+pub fn rgb_from_oklab(lab: [f32; 3]) -> [f32; 3] {
+    from_oklab(lab)
+}
+
+#[inline(always)]
+fn from_oklab<V: Channel>([l, a, b]: [V; 3]) -> [V; 3] {
+    let p = cube(l + a * 0.396_337_78 + b * 0.215_803_76);
+    let q = cube(l - a * 0.105_561_346 - b * 0.063_854_17);
+    let r = cube(l - a * 0.089_484_18 - b * 1.291_485_5);
     [
-        4.076_741_7 * p - 3.307_711_6 * q + 0.230_969_94 * r,
-        -1.268_438 * p + 2.609_757_4 * q - 0.341_319_4 * r,
-        -0.004_196_086_3 * p - 0.703_418_6 * q + 1.707_614_7 * r,
+        p * 4.076_741_7 - q * 3.307_711_6 + r * 0.230_969_94,
+        p * -1.268_438 + q * 2.609_757_4 - r * 0.341_319_4,
+        p * -0.004_196_086_3 - q * 0.703_418_6 + r * 1.707_614_7,
     ]
+}
+
+#[inline(always)]
+fn cube<V: Channel>(x: V) -> V {
+    x * x * x
 }
 
 #[cfg(test)]
@@ -168,9 +234,7 @@ mod tests {
         // Magenta-red (330°) to orange (30°): the middle is red, not cyan.
         let from = rgb_from_hsv([330.0, 1.0, 1.0]);
         let to = rgb_from_hsv([30.0, 1.0, 1.0]);
-        let middle = ColorMix::new(ColorSpace::Hsv, from, to)
-            .at(&[0.5])
-            .map(|part| part[0]);
+        let middle = ColorMix::new(ColorSpace::Hsv, from, to).at(0.5);
         assert!(near(middle, [1.0, 0.0, 0.0], 1e-5), "{middle:?}");
     }
 

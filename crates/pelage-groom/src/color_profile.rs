@@ -4,6 +4,7 @@ use crate::PlanError;
 use crate::color::{ColorMix, ColorSpace};
 use crate::maps::{ColorField, FieldMaker};
 use crate::recipe::{ColorProperty, Coloring};
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x8};
 
 /// Colours at some places of every hair: root and tip, or the points of a ramp.
 #[derive(Clone, Debug)]
@@ -61,20 +62,29 @@ impl ColorProfile {
 
     /// The colours at each of `ts` of a hair with these mixes: all reds, greens, blues.
     #[inline(always)]
-    pub(crate) fn at<const N: usize>(&self, mixes: &[ColorMix], ts: &[f32; N]) -> [[f32; N]; 3] {
+    pub(crate) fn at<S: Simd>(&self, mixes: &[ColorMix], ts: f32x8<S>) -> [f32x8<S>; 3] {
         if let ([mix], [0.0, 1.0]) = (mixes, &self.places[..]) {
             return mix.at(ts);
         }
-        let mut colors = [[0.0; N]; 3];
-        for (k, &t) in ts.iter().enumerate() {
-            let inner = &self.places[1..self.pieces()];
-            let piece = inner.partition_point(|place| *place <= t);
-            let (from, to) = (self.places[piece], self.places[piece + 1]);
-            let inside = ((t - from) / (to - from)).clamp(0.0, 1.0);
-            for (all, [part]) in colors.iter_mut().zip(mixes[piece].at(&[inside])) {
-                all[k] = part;
+        // Each piece has the colours behind its place, until one that begins behind.
+        let mut colors = self.piece(0, mixes, ts);
+        for i in 1..self.pieces() {
+            let behind = ts.simd_ge(self.places[i]);
+            if !behind.any_true() {
+                break;
+            }
+            let own = self.piece(i, mixes, ts);
+            for k in 0..3 {
+                colors[k] = behind.select(own[k], colors[k]);
             }
         }
         colors
+    }
+
+    /// The colours of piece `i`, and at its ends outside of it.
+    #[inline(always)]
+    fn piece<S: Simd>(&self, i: usize, mixes: &[ColorMix], ts: f32x8<S>) -> [f32x8<S>; 3] {
+        let (from, to) = (self.places[i], self.places[i + 1]);
+        mixes[i].at(((ts - from) / (to - from)).max(0.0).min(1.0))
     }
 }

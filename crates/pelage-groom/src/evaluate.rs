@@ -9,11 +9,10 @@ use crate::plan::Plan;
 use crate::pose::Posed;
 use crate::shape::Shapes;
 use crate::stages::{frames, look};
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, Simd, dispatch};
 use pelage_curves::FrameScratch;
 use pelage_strands::{StrandBuffer, StrandMeta};
 use pelage_surface::RootFrame;
-use std::ops::Range;
 
 /// Arrays that are only used while a chunk is evaluated.
 #[derive(Clone, Debug, Default)]
@@ -55,8 +54,7 @@ impl Plan {
         self.shape(capture, frames, &moment, shapes, clock);
         let started = clock.start();
         dispatch!(Level::new(), simd => {
-            let _ = simd;
-            self.lay_out(capture, shapes, kept, out)
+            self.lay_out(simd, capture, shapes, kept, out)
         });
         let started = clock.stop(Stage::Look, started);
         if self.normals {
@@ -72,23 +70,19 @@ impl Plan {
     /// Writes everything but normals, which get their length; and which curves are written to
     /// `kept`.
     #[inline(always)]
-    fn lay_out(
+    fn lay_out<S: Simd>(
         &self,
+        simd: S,
         capture: &Capture,
         shapes: &Shapes,
         kept: &mut Vec<Kept>,
         out: &mut StrandBuffer,
     ) {
-        out.clear();
+        // Arrays that keep their length need not be filled before they are written.
+        out.offsets.truncate(1);
+        out.points.clear();
         kept.clear();
         shapes.write(&mut out.points);
-        let vertices = out.points.len();
-        out.widths.resize(vertices, 0.0);
-        out.colors.resize(vertices, [0.0; 3]);
-        out.opacities.resize(vertices, 0.0);
-        if self.normals {
-            out.normals.resize(vertices, [0.0; 3]);
-        }
         let fibers = self.fibers();
         let curves = 0..capture.len() * fibers;
         let staying = curves.filter(|&curve| !shapes.stay.numbers(curve).is_empty());
@@ -97,9 +91,9 @@ impl Plan {
             hair: (curve / fibers) as u32,
         }));
         out.extend_meta(kept.iter().map(|kept| self.meta(capture, shapes, kept)));
-        for (i, kept) in kept.iter().enumerate() {
-            self.color(capture, shapes, kept, out.vertices(i), out);
-        }
+        self.color(simd, capture, shapes, kept, out);
+        let normals = if self.normals { out.points.len() } else { 0 };
+        out.normals.resize(normals, [0.0; 3]);
     }
 
     /// Where the vertices of a curve end, and its record.
@@ -120,30 +114,49 @@ impl Plan {
         (shapes.stay.offsets()[curve + 1], meta)
     }
 
-    /// Writes the looks of a curve, whose vertices lie in `range`.
+    /// Writes the looks of the curves `kept`.
     #[inline(always)]
-    fn color(
+    fn color<S: Simd>(
         &self,
+        simd: S,
         capture: &Capture,
         shapes: &Shapes,
-        kept: &Kept,
-        range: Range<usize>,
+        kept: &[Kept],
         out: &mut StrandBuffer,
     ) {
-        let (fields, hair) = (&self.fields.look, kept.hair as usize);
+        let (fields, vertices) = (&self.fields.look, out.points.len());
         let pieces = fields.color.pieces();
-        look::along(
-            fields,
-            &capture.looks[hair],
-            &capture.mixes[hair * pieces..][..pieces],
-            look::Vertices {
-                numbers: shapes.stay.numbers(kept.curve as usize),
+        out.colors.resize(vertices + look::ROW, [0.0; 3]);
+        out.opacities.resize(vertices + look::ROW, 0.0);
+        out.widths.resize(vertices + look::ROW, 0.0);
+        let mut written = look::Written {
+            colors: &mut out.colors,
+            opacities: &mut out.opacities,
+            widths: &mut out.widths,
+        };
+        let mut start = 0;
+        for kept in kept {
+            let hair = kept.hair as usize;
+            let vertices = look::Vertices {
                 segments: self.guides[capture.roots[hair].group as usize].segments,
                 cut: capture.cut(hair),
-            },
-            &mut out.colors[range.clone()],
-            &mut out.opacities[range.clone()],
-            &mut out.widths[range],
-        );
+                numbers: shapes.stay.numbers_from(kept.curve as usize),
+                count: shapes.stay.numbers(kept.curve as usize).len(),
+            };
+            let mixes = &capture.mixes[hair * pieces..][..pieces];
+            look::along(
+                simd,
+                fields,
+                &capture.looks[hair],
+                mixes,
+                vertices,
+                start,
+                &mut written,
+            );
+            start += vertices.count;
+        }
+        out.colors.truncate(vertices);
+        out.opacities.truncate(vertices);
+        out.widths.truncate(vertices);
     }
 }

@@ -5,8 +5,10 @@
 //! not wait for each other. What is done is done lane by lane, so a hair has the same bits
 //! whatever its neighbours and whatever the processor's vectors.
 
+use fearless_simd::{Bytes, Simd, SimdBase, SimdSplit, f32x4, f32x8, f32x16, f64x4};
 use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
+use std::ops::{Add, Mul};
 
 /// Hairs side by side: two of the widest common vectors.
 pub const LANES: usize = 16;
@@ -14,11 +16,70 @@ pub const LANES: usize = 16;
 /// One number of each of the hairs that are side by side.
 pub type Row = [f32; LANES];
 
+/// A [`Row`] in the registers of processors with the instructions `S`.
+pub(crate) type Number<S> = f32x16<S>;
+
+/// [`Rows`] in registers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vectors<S: Simd>(pub [Number<S>; 3]);
+
+impl<S: Simd> Vectors<S> {
+    /// The same, to be kept in memory.
+    #[inline(always)]
+    pub(crate) fn rows(self) -> Rows {
+        Rows(self.0.map(|number| number.to_array()))
+    }
+}
+
+impl<S: Simd> Add for Vectors<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let ([a, b, c], [x, y, z]) = (self.0, other.0);
+        Self([a + x, b + y, c + z])
+    }
+}
+
+/// Part by part.
+impl<S: Simd> Mul for Vectors<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let ([a, b, c], [x, y, z]) = (self.0, other.0);
+        Self([a * x, b * y, c * z])
+    }
+}
+
+impl<S: Simd> Mul<Number<S>> for Vectors<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: Number<S>) -> Self {
+        Self(self.0.map(|part| part * factor))
+    }
+}
+
 /// One vector of each: all x, all y, all z.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Rows(pub [Row; 3]);
 
 impl Rows {
+    /// The same in registers.
+    #[inline(always)]
+    pub(crate) fn load<S: Simd>(&self, simd: S) -> Vectors<S> {
+        Vectors([0, 1, 2].map(|k| Number::load_array_ref(simd, &self.0[k])))
+    }
+
+    /// The vectors of the first [`HALF`] of the lanes, and those of the others.
+    #[inline(always)]
+    pub(crate) fn halves<S: Simd>(&self, simd: S) -> [[Vec3; HALF]; 2] {
+        let [x, y, z] = self.load(simd).0;
+        let ((x, u), (y, v), (z, w)) = (x.split(), y.split(), z.split());
+        [vectors([x, y, z]), vectors([u, v, w])]
+    }
+
     /// The vector in `lane`.
     #[inline(always)]
     pub fn get(&self, lane: usize) -> Vec3 {
@@ -55,6 +116,47 @@ impl Rows {
     }
 }
 
+/// Four rows of eight numbers turned: the first of each, their seconds, and so on.
+#[inline(always)]
+pub(crate) fn turned<S: Simd>([a, b, c, d]: [f32x8<S>; 4]) -> [f32x4<S>; 8] {
+    // In pairs, and pairs of those; a pair is moved as one number of twice the size.
+    let (low, high) = ((a.zip_low(b), c.zip_low(d)), (a.zip_high(b), c.zip_high(d)));
+    let (low, high) = (pairs(low.0, low.1), pairs(high.0, high.1));
+    let ((a, b), (c, d)) = (low[0].split(), low[1].split());
+    let ((e, f), (g, h)) = (high[0].split(), high[1].split());
+    [a, b, c, d, e, f, g, h]
+}
+
+#[inline(always)]
+fn pairs<S: Simd>(a: f32x8<S>, b: f32x8<S>) -> [f32x8<S>; 2] {
+    let (a, b): (f64x4<S>, f64x4<S>) = (a.bitcast(), b.bitcast());
+    [a.zip_low(b).bitcast(), a.zip_high(b).bitcast()]
+}
+
+/// Half the [`LANES`].
+pub(crate) const HALF: usize = LANES / 2;
+
+/// Vectors of all x, all y and all z.
+#[inline(always)]
+fn vectors<S: Simd>([x, y, z]: [f32x8<S>; 3]) -> [Vec3; HALF] {
+    let mut vectors = [Vec3::ZERO; HALF];
+    for (vector, parts) in vectors.iter_mut().zip(turned([x, y, z, z])) {
+        *vector = Vec3::new(parts[0], parts[1], parts[2]);
+    }
+    vectors
+}
+
+/// Two numbers of each of the things that are side by side, [`LANES`] at most; zero in the
+/// lanes behind them.
+#[inline(always)]
+pub(crate) fn ends<T>(things: &[T], numbers: impl Fn(&T) -> [f32; 2]) -> [Row; 2] {
+    let mut rows = [[0.0; LANES]; 2];
+    for (lane, one) in things.iter().enumerate() {
+        [rows[0][lane], rows[1][lane]] = numbers(one);
+    }
+    rows
+}
+
 /// Root frames side by side.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Frames {
@@ -76,15 +178,11 @@ impl Frames {
         }
     }
 
-    /// Where the local point `local` of `lane` is in the space of its frame.
+    /// Where local points are in the space of their frames.
     #[inline(always)]
-    pub(crate) fn place(&self, lane: usize, local: Vec3) -> Vec3 {
-        let frame = RootFrame {
-            position: self.position.get(lane),
-            tangent: self.tangent.get(lane),
-            binormal: self.binormal.get(lane),
-            normal: self.normal.get(lane),
-        };
-        frame.position + frame.vector(local)
+    pub(crate) fn place<S: Simd>(&self, simd: S, local: Vectors<S>) -> Vectors<S> {
+        let [x, y, z] = local.0;
+        let across = self.tangent.load(simd) * x + self.binormal.load(simd) * y;
+        self.position.load(simd) + (across + self.normal.load(simd) * z)
     }
 }

@@ -7,8 +7,9 @@ use crate::guide_set::GuideSet;
 use crate::guide_shapes::{GuideShapes, Mixed};
 use crate::lanes::LANES;
 use crate::plan::Plan;
-use crate::stages::{frenet, helix, interpolate, scale};
-use fearless_simd::{Level, dispatch};
+use crate::stages::interpolate::{FOUR, Mix, interpolate_with};
+use crate::stages::{frenet, helix, scale};
+use fearless_simd::{Level, Simd, dispatch};
 
 /// Memory for hairs that are put together of bends and twists. Reused between chunks.
 #[derive(Clone, Debug, Default)]
@@ -35,12 +36,11 @@ impl Plan {
         };
         hairs.lay_out(capture.roots.iter().map(|root| segments(root.group) + 1));
         dispatch!(Level::new(), simd => {
-            let _ = simd;
-            mix_vertices(capture, shapes, hairs)
+            mix_vertices(simd, capture, shapes, hairs)
         });
         let all_by_vertices = |guides: &GuideSet| matches!(guides.shapes.mixed, Mixed::Vertices);
         if !self.guides.iter().all(all_by_vertices) {
-            hairs.unroll(&mut scratch.curves);
+            dispatch!(Level::new(), simd => hairs.unroll(simd, &mut scratch.curves));
             put_together(capture, shapes, scratch);
             hairs.roll(&scratch.curves);
         }
@@ -78,16 +78,24 @@ fn put_together<'a>(
 
 /// Hairs as the weighted means of the vertices of their guides.
 #[inline(always)]
-fn mix_vertices<'a>(
+fn mix_vertices<'a, S: Simd>(
+    simd: S,
     capture: &Capture,
     shapes: impl Fn(u32) -> &'a GuideShapes,
     hairs: &mut Blocks,
 ) {
-    for (i, root) in capture.roots.iter().enumerate() {
-        let (block, lane) = (i / LANES, i % LANES);
-        let guides = &shapes(root.group).vertices;
-        let vertices = hairs.lengths(block)[lane] as usize;
-        let rows = hairs.block_mut(block);
-        interpolate::interpolate(guides, vertices, capture.shares(i), lane, rows);
+    for block in 0..hairs.blocks() {
+        let range = hairs.hairs(block);
+        for first in range.clone().step_by(FOUR) {
+            let mut mixes = [Mix::default(); FOUR];
+            for (mix, hair) in mixes.iter_mut().zip(first..range.end) {
+                *mix = Mix {
+                    guides: &shapes(capture.roots[hair].group).vertices,
+                    vertices: hairs.length(hair),
+                    shares: capture.shares(hair),
+                };
+            }
+            interpolate_with(simd, mixes, first % LANES, hairs.block_mut(block));
+        }
     }
 }

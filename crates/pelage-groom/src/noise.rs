@@ -13,8 +13,10 @@
 //!   the lattice, where gradients alone are 0. Gradients along the diagonals have the
 //!   second moments of any isotropic set, and so noise has the same correlations.
 
-use crate::lanes::{LANES, Rows};
-use fearless_simd::{Level, dispatch};
+use crate::lanes::{LANES, Number, Rows, Vectors};
+use fearless_simd::{
+    Bytes, ExtractToken, Level, Simd, SimdBase, SimdFloat, dispatch, i32x16, u32x16,
+};
 use pelage_curves::Vec3;
 
 /// Odd numbers that spread the cells of each axis over all words.
@@ -38,17 +40,18 @@ const SCALE: f32 = 0.65;
 /// let (here, near) = (noise(7, Vec3::splat(0.5)), noise(7, Vec3::splat(0.501)));
 /// assert!(here.abs().max_element() <= 1.0 && here.distance(near) < 0.01);
 /// ```
-#[inline(always)]
 pub fn noise(seed: u32, point: Vec3) -> Vec3 {
-    noise_at(seed, point.to_array()).into()
+    let mut value = [Vec3::ZERO];
+    noise_vectors(seed, &[point], &mut value);
+    value[0]
 }
 
 /// Writes [`noise`] at each of `points` to `values`, which has the same length.
 pub fn noise_vectors(seed: u32, points: &[Vec3], values: &mut [Vec3]) {
     dispatch!(Level::new(), simd => {
-        let _ = simd;
         for (points, values) in points.chunks(LANES).zip(values.chunks_mut(LANES)) {
-            let row = noise_row(seed, &Rows::of(points, |point| *point));
+            let mut row = Rows::of(points, |point| *point);
+            row = noise_at(seed, row.load(simd)).rows();
             for (lane, value) in values.iter_mut().enumerate() {
                 *value = row.get(lane);
             }
@@ -58,65 +61,54 @@ pub fn noise_vectors(seed: u32, points: &[Vec3], values: &mut [Vec3]) {
 
 /// [`noise`] at points side by side.
 #[inline(always)]
-pub(crate) fn noise_row(seed: u32, points: &Rows) -> Rows {
+pub(crate) fn noise_at<S: Simd>(seed: u32, points: Vectors<S>) -> Vectors<S> {
     let [x, y, z] = points.0;
-    let [mut a, mut b, mut c] = [[0.0; LANES]; 3];
-    for k in 0..LANES {
-        [a[k], b[k], c[k]] = noise_at(seed, [x[k], y[k], z[k]]);
-    }
-    Rows([a, b, c])
-}
-
-// The parts of a noise are functions, not closures: closures that are called often are
-// not inlined, and then nothing runs side by side.
-
-#[inline(always)]
-fn noise_at(seed: u32, [x, y, z]: [f32; 3]) -> [f32; 3] {
     let x = ends(x, PRIMES[0], 1.0);
     let y = ends(y, PRIMES[1], 1.0);
-    let z = ends(z, PRIMES[2], SCALE);
-    sum(face(seed, x, y, z[0]), face(seed, x, y, z[1]))
+    let z = ends(z, PRIMES[2], SCALE).map(|end| End {
+        hash: end.hash ^ seed,
+        ..end
+    });
+    face(&x, &y, z[0]) + face(&x, &y, z[1])
+}
+
+/// Words of [`LANES`] points.
+type Word<S> = u32x16<S>;
+
+#[inline(always)]
+fn face<S: Simd>(x: &[End<S>; 2], y: &[End<S>; 2], z: End<S>) -> Vectors<S> {
+    edge(x, y[0], z) + edge(x, y[1], z)
 }
 
 #[inline(always)]
-fn face(seed: u32, x: [End; 2], y: [End; 2], z: End) -> [f32; 3] {
-    sum(edge(seed, x, y[0], z), edge(seed, x, y[1], z))
-}
-
-#[inline(always)]
-fn edge(seed: u32, x: [End; 2], y: End, z: End) -> [f32; 3] {
-    sum(corner(seed, x[0], y, z), corner(seed, x[1], y, z))
-}
-
-#[inline(always)]
-fn sum(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+fn edge<S: Simd>(x: &[End<S>; 2], y: End<S>, z: End<S>) -> Vectors<S> {
+    corner(x[0], y, z) + corner(x[1], y, z)
 }
 
 /// What one axis adds to the corners at one end of a cell.
 #[derive(Clone, Copy)]
-struct End {
-    hash: u32,
+struct End<S: Simd> {
+    hash: Word<S>,
     /// From the corner to the point.
-    offset: f32,
+    offset: Number<S>,
     /// Nearness of the point.
-    weight: f32,
+    weight: Number<S>,
 }
 
 /// Both ends of the cell of `x` along an axis, with weights that sum to `scale`.
 #[inline(always)]
-fn ends(x: f32, prime: u32, scale: f32) -> [End; 2] {
+fn ends<S: Simd>(x: Number<S>, prime: u32, scale: f32) -> [End<S>; 2] {
     let (whole, inside) = cell(x);
-    let hash = (whole as u32).wrapping_mul(prime);
+    let hash = whole * prime;
     let far = fade(inside) * scale;
     [
         End {
             hash,
             offset: inside,
-            weight: scale - far,
+            weight: Number::splat(x.token(), scale) - far,
         },
         End {
-            hash: hash.wrapping_add(prime),
+            hash: hash + prime,
             offset: inside - 1.0,
             weight: far,
         },
@@ -126,53 +118,51 @@ fn ends(x: f32, prime: u32, scale: f32) -> [End; 2] {
 /// What a corner says to three noises: its gradient along the offset, and its value. The
 /// weight enters before the signs, so that it is multiplied once for all three.
 #[inline(always)]
-fn corner(seed: u32, x: End, y: End, z: End) -> [f32; 3] {
-    let bits = scrambled(seed ^ x.hash ^ y.hash ^ z.hash);
+fn corner<S: Simd>(x: End<S>, y: End<S>, z: End<S>) -> Vectors<S> {
+    let bits = scrambled(z.hash ^ y.hash ^ x.hash);
     let weight = x.weight * y.weight * z.weight;
     let parts = [x.offset * weight, y.offset * weight, z.offset * weight];
-    let value = VALUE * weight;
-    [
+    let value = weight * VALUE;
+    Vectors([
         signed_sum(parts, value, bits),
         signed_sum(parts, value, bits << 4),
         signed_sum(parts, value, bits << 8),
-    ]
+    ])
 }
 
 #[inline(always)]
-fn signed_sum([x, y, z]: [f32; 3], value: f32, bits: u32) -> f32 {
+fn signed_sum<S: Simd>([x, y, z]: [Number<S>; 3], value: Number<S>, bits: Word<S>) -> Number<S> {
     let across = signed(x, bits) + signed(y, bits << 1);
     across + (signed(z, bits << 2) + signed(value, bits << 3))
 }
 
-/// The cell of coordinate `x`: its whole part, and what is left, 0..=1. Written with a
-/// conversion to integers, since `floor` is a call where processors are only asked for
-/// their oldest instructions.
+/// The cell of coordinate `x`: its whole part, and what is left, 0..=1.
 #[inline(always)]
-fn cell(x: f32) -> (i32, f32) {
-    let whole = x as i32;
-    let whole = whole.wrapping_sub((whole as f32 > x) as i32);
-    (whole, (x - whole as f32).clamp(0.0, 1.0))
+fn cell<S: Simd>(x: Number<S>) -> (Word<S>, Number<S>) {
+    let below = x.floor();
+    let whole: i32x16<S> = below.to_int_precise();
+    // Nothing is left of infinity.
+    (whole.bitcast(), (x - below).max_precise(0.0))
 }
 
 /// 6t⁵ - 15t⁴ + 10t³: first and second derivatives vanish at the lattice.
 #[inline(always)]
-fn fade(t: f32) -> f32 {
+fn fade<S: Simd>(t: Number<S>) -> Number<S> {
     t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
 }
 
 /// A word of which the upper bits look random.
 #[inline(always)]
-fn scrambled(mut h: u32) -> u32 {
-    h ^= h >> 15;
-    h = h.wrapping_mul(0x2c1b_3c6d);
-    h ^= h >> 12;
-    h.wrapping_mul(0x297a_2d39)
+fn scrambled<S: Simd>(h: Word<S>) -> Word<S> {
+    let h = (h ^ (h >> 15)) * 0x2c1b_3c6d;
+    (h ^ (h >> 12)) * 0x297a_2d39
 }
 
 /// `value`, with the other sign where the highest bit of `bits` is set.
 #[inline(always)]
-fn signed(value: f32, bits: u32) -> f32 {
-    f32::from_bits(value.to_bits() ^ (bits & 1 << 31))
+fn signed<S: Simd>(value: Number<S>, bits: Word<S>) -> Number<S> {
+    let sign = bits & (1 << 31);
+    Number::from_bits(value.to_bits() ^ sign)
 }
 
 #[cfg(test)]
@@ -282,14 +272,20 @@ mod tests {
 
     #[test]
     fn neighbouring_corners_share_no_bit() {
-        let n = 40;
+        // One more than a step beyond the cells that are looked at.
+        let (n, side) = (40u32, 43u32);
         let cells: Vec<[u32; 3]> = (0..n * n * n)
             .map(|i| [i % n, i / n % n, i / n / n])
             .collect();
-        let hash = |cell: [u32; 3]| {
-            let words = [0, 1, 2].map(|k| cell[k].wrapping_mul(PRIMES[k]));
-            scrambled(77 ^ words[0] ^ words[1] ^ words[2])
-        };
+        let words: Vec<u32> = (0..side * side * side)
+            .map(|i| {
+                let cell = [i % side, i / side % side, i / side / side];
+                let word = |k: usize| cell[k].wrapping_mul(PRIMES[k]);
+                let word = 77 ^ word(0) ^ word(1) ^ word(2);
+                dispatch!(Level::new(), simd => scrambled(Word::splat(simd, word))[0])
+            })
+            .collect();
+        let hash = |[x, y, z]: [u32; 3]| words[(x + side * (y + side * z)) as usize];
         let steps = (1..27u32).map(|i| [i % 3, i / 3 % 3, i / 9]);
         for (step, other) in steps.flat_map(|step| (0..12).map(move |bit| (step, bit))) {
             let mut alike = [0i32; 12];

@@ -2,11 +2,12 @@
 //! amounts along hairs.
 
 use crate::PlanError;
-use crate::lanes::{LANES, Row};
+use crate::lanes::Number;
 use crate::maps::{FieldMaker, ScalarField};
 use crate::profile::Profile;
 use crate::random::{Channel, noise_seed};
 use crate::recipe::ScalarProperty;
+use fearless_simd::Simd;
 use pelage_curves::Vec3;
 
 /// A noise over the surface.
@@ -50,34 +51,16 @@ impl NoiseFields {
         [x, y, z, root, tip]
     }
 
-    /// How much of the noise each of `hairs`, [`LANES`] at most, has at its `t`; `between`
-    /// says it without a ramp.
+    /// How much of the noise hairs side by side have at `ts`, of their amounts at root and
+    /// tip; `between` says it without a ramp.
     #[inline(always)]
-    pub(crate) fn amounts(
+    pub(crate) fn amounts<S: Simd>(
         &self,
-        hairs: &[impl Bent],
-        ts: &Row,
-        between: impl Fn([f32; 2], f32) -> f32,
-    ) -> Row {
-        let mut ends = [[0.0; LANES]; 2];
-        for (lane, hair) in hairs.iter().enumerate() {
-            [ends[0][lane], ends[1][lane]] = hair.amount();
-        }
-        let ends = |lane: usize| [ends[0][lane], ends[1][lane]];
+        ends: [Number<S>; 2],
+        ts: Number<S>,
+        between: impl Fn([Number<S>; 2], Number<S>) -> Number<S>,
+    ) -> Number<S> {
         self.amount.row(ends, ts, between)
-    }
-}
-
-/// Something that noise bends.
-pub(crate) trait Bent {
-    /// Amounts at root and tip, at least 0; with a ramp, the first multiplies it.
-    fn amount(&self) -> [f32; 2];
-}
-
-impl Bent for HairNoise {
-    #[inline(always)]
-    fn amount(&self) -> [f32; 2] {
-        self.amount
     }
 }
 

@@ -3,6 +3,8 @@
 use crate::PlanError;
 use crate::maps::{FieldMaker, ScalarField};
 use crate::recipe::{Ramp, ScalarProperty};
+use fearless_simd::{Simd, SimdFloat};
+use std::ops::{Add, Mul, Neg};
 
 /// A number along hairs, over the surface: at `N` places of a hair, or by a ramp that all
 /// hairs share and a map multiplies.
@@ -64,30 +66,22 @@ impl<const N: usize> Profile<N> {
 }
 
 impl Profile<2> {
-    /// The values at each of `ts`, of hairs whose fields are those that `values` tells;
-    /// `between` says what these mean without a ramp.
+    /// The values at each of `ts`, of hairs whose fields are `values`; `between` says what
+    /// these mean without a ramp.
     #[inline(always)]
-    pub(crate) fn row<const M: usize>(
+    pub(crate) fn row<S: Simd, V: SimdFloat<S, Element = f32>>(
         &self,
-        values: impl Fn(usize) -> [f32; 2],
-        ts: &[f32; M],
-        between: impl Fn([f32; 2], f32) -> f32,
-    ) -> [f32; M] {
-        let mut row = [0.0; M];
-        // The choice is made once, so that the row is done side by side.
+        values: [V; 2],
+        mut ts: V,
+        between: impl Fn([V; 2], V) -> V,
+    ) -> V {
         match &self.ramp {
-            None => {
-                for k in 0..M {
-                    row[k] = between(values(k), ts[k]);
-                }
-            }
+            None => between(values, ts),
             Some(ramp) => {
-                for k in 0..M {
-                    row[k] = values(k)[0] * on(ramp, ts[k]);
-                }
+                ts.as_mut_slice().iter_mut().for_each(|t| *t = on(ramp, *t));
+                values[0] * ts
             }
         }
-        row
     }
 }
 
@@ -102,10 +96,13 @@ fn on(ramp: &Ramp<f32>, t: f32) -> f32 {
     }
 }
 
-/// A straight line from root to tip.
+/// A straight line from root to tip, of one number or of many side by side.
 #[inline(always)]
-pub(crate) fn line([root, tip]: [f32; 2], t: f32) -> f32 {
-    root * (1.0 - t) + tip * t
+pub(crate) fn line<V>([root, tip]: [V; 2], t: V) -> V
+where
+    V: Copy + Neg<Output = V> + Mul<Output = V> + Add<Output = V> + Add<f32, Output = V>,
+{
+    root * (-t + 1.0) + tip * t
 }
 
 #[cfg(test)]

@@ -118,12 +118,11 @@ impl Plan {
         } = shapes;
         let started = clock.start();
         dispatch!(Level::new(), simd => {
-            let _ = simd;
             for block in 0..local.blocks() {
                 let frames = Frames::of(&frames[local.hairs(block)]);
-                world::to_world(&frames, local.block_mut(block));
+                world::to_world(simd, &frames, local.block_mut(block));
             }
-            local.unroll(curves);
+            local.unroll(simd, curves);
         });
         let started = clock.stop(Stage::World, started);
         self.draw_together(capture, moment.middles, before, curves);

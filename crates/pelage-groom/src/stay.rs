@@ -44,6 +44,11 @@ impl Stay {
         &self.kept[self.starts[i] as usize..self.starts[i + 1] as usize]
     }
 
+    /// Those, and behind them those of the curves that follow.
+    pub(crate) fn numbers_from(&self, i: usize) -> &[u32] {
+        &self.kept[self.starts[i] as usize..]
+    }
+
     /// Puts the numbers of the vertices of hair `hair` that are left of the first `uncut`
     /// into `left`.
     fn leave(&mut self, hair: usize, uncut: usize) {

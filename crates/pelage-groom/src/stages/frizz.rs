@@ -10,14 +10,14 @@
 
 use crate::PlanError;
 use crate::blocks::Blocks;
-use crate::lanes::{LANES, Row, Rows};
+use crate::lanes::{Number, Row, Rows, Vectors, ends};
 use crate::maps::{FieldMaker, ScalarField};
-use crate::noise::noise_row;
-use crate::noise_fields::{Bent, HairNoise, NoiseFields};
+use crate::noise::noise_at;
+use crate::noise_fields::{HairNoise, NoiseFields};
 use crate::random::Channel;
 use crate::recipe;
 use crate::stages::roots::Root;
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use pelage_curves::Vec3;
 
 /// The properties of frizz over the surface.
@@ -40,13 +40,6 @@ pub struct Frizz {
     moving: f32,
     /// At root and tip, or what multiplies the ramp.
     amount: [f32; 2],
-}
-
-impl Bent for Frizz {
-    #[inline(always)]
-    fn amount(&self) -> [f32; 2] {
-        self.amount
-    }
 }
 
 impl FrizzFields {
@@ -96,55 +89,54 @@ impl FrizzFields {
 pub(crate) fn frizz(fields: &FrizzFields, hairs: &[Frizz], time: f32, local: &mut Blocks) {
     let moving = time != 0.0 && fields.is_moving();
     dispatch!(Level::new(), simd => {
-        let _ = simd;
         for block in 0..local.blocks() {
             let hairs = &hairs[local.hairs(block)];
-            let still = noise_at(fields, hairs, 0.0);
-            let bends = match moving {
-                false => still,
+            let still = noise_of(simd, fields, hairs, 0.0);
+            let [x, y, z] = match moving {
+                false => still.0,
                 true => {
-                    let moved = noise_at(fields, hairs, time);
-                    let parts = part_moving(hairs);
-                    Rows::from_fn(|lane| {
-                        let part = parts[lane];
-                        still.get(lane) * (1.0 - part) + moved.get(lane) * part
-                    })
+                    let moved = noise_of(simd, fields, hairs, time);
+                    let [part, rest] = ends(hairs, |hair| [hair.moving, 1.0 - hair.moving])
+                        .map(|row| Number::load_array(simd, row));
+                    (still * rest + moved * part).0
                 }
             };
+            let toward = Vectors([x, y, -z.abs()]);
             let steps = local.steps(block);
-            let vertices = local.block_mut(block).iter_mut().enumerate().skip(1);
-            for (number, vertex) in vertices {
-                let ts = steps.map(|step| number as f32 * step);
-                let amounts = fields.noise.amounts(hairs, &ts, profile);
-                *vertex = Rows::from_fn(|lane| {
-                    let bend = bends.get(lane);
-                    let toward = Vec3::new(bend.x, bend.y, -bend.z.abs());
-                    vertex.get(lane) + toward * amounts[lane]
-                });
-            }
+            let amounts = ends(hairs, |hair| hair.amount);
+            bend(simd, fields, (toward, amounts), steps, local.block_mut(block));
         }
     });
 }
 
-/// The noise of the hairs of a block at `time`.
+/// Bends the hairs of a block, each as far as its amounts at root and tip say.
 #[inline(always)]
-fn noise_at(fields: &FrizzFields, hairs: &[Frizz], time: f32) -> Rows {
-    let places = Rows::of(hairs, |hair| hair.place + hair.velocity * time);
-    noise_row(fields.noise.seed, &places)
+fn bend<S: Simd>(
+    simd: S,
+    fields: &FrizzFields,
+    (toward, amounts): (Vectors<S>, [Row; 2]),
+    steps: Row,
+    hairs: &mut [Rows],
+) {
+    let amounts = amounts.map(|row| Number::load_array(simd, row));
+    let steps = Number::load_array(simd, steps);
+    for (number, vertex) in hairs.iter_mut().enumerate().skip(1) {
+        let ts = steps * number as f32;
+        let amounts = fields.noise.amounts(amounts, ts, profile);
+        *vertex = (vertex.load(simd) + toward * amounts).rows();
+    }
 }
 
+/// The noise of the hairs of a block at `time`.
 #[inline(always)]
-fn part_moving(hairs: &[Frizz]) -> Row {
-    let mut parts = [0.0; LANES];
-    for (part, hair) in parts.iter_mut().zip(hairs) {
-        *part = hair.moving;
-    }
-    parts
+fn noise_of<S: Simd>(simd: S, fields: &FrizzFields, hairs: &[Frizz], time: f32) -> Vectors<S> {
+    let places = Rows::of(hairs, |hair| hair.place + hair.velocity * time);
+    noise_at(fields.noise.seed, places.load(simd))
 }
 
 /// The document's amount at `t`, of those at root and tip.
 #[inline(always)]
-fn profile([root, tip]: [f32; 2], t: f32) -> f32 {
+fn profile<S: Simd>([root, tip]: [Number<S>; 2], t: Number<S>) -> Number<S> {
     let both = root * 4.0 * (t - t * t) + tip * t * t;
     both.min(root.max(tip))
 }
@@ -155,7 +147,13 @@ mod tests {
 
     #[test]
     fn root_frizz_bends_the_middle_and_tip_frizz_the_tip() {
-        let bent = |ends| [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| profile(ends, t));
+        let at = |[root, tip]: [f32; 2], t: f32| {
+            dispatch!(Level::new(), simd => {
+                let ends = [Number::splat(simd, root), Number::splat(simd, tip)];
+                profile(ends, Number::splat(simd, t))[0]
+            })
+        };
+        let bent = |ends| [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| at(ends, t));
         assert_eq!(bent([1.0, 0.0]), [0.0, 0.75, 1.0, 0.75, 0.0]);
         assert_eq!(bent([0.0, 1.0]), [0.0, 0.0625, 0.25, 0.5625, 1.0]);
         // Nothing is bent more than the larger of the two says.

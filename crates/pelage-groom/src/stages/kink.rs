@@ -7,11 +7,11 @@
 //! frequencies per unit of the mesh.
 
 use crate::blocks::Blocks;
-use crate::lanes::{Frames, LANES, Rows};
-use crate::noise::noise_row;
+use crate::lanes::{Frames, Number, Row, Rows, ends};
+use crate::noise::noise_at;
 use crate::noise_fields::{HairNoise, NoiseFields};
 use crate::profile::line;
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use pelage_surface::RootFrame;
 
 /// Moves the vertices of `local`: of hairs with such noise, whose roots have `frames` at
@@ -24,34 +24,42 @@ pub(crate) fn kink(
     local: &mut Blocks,
 ) {
     dispatch!(Level::new(), simd => {
-        let _ = simd;
         for block in 0..local.blocks() {
             let range = local.hairs(block);
-            let hairs = (&hairs[range.clone()], Frames::of(&frames[range]));
-            let steps = local.steps(block);
+            let kinked = Kinked {
+                fields,
+                frequency: Rows::of(&hairs[range.clone()], |hair| hair.frequency),
+                amounts: ends(&hairs[range.clone()], |hair| hair.amount),
+                frames: Frames::of(&frames[range]),
+                steps: local.steps(block),
+            };
             let rest = rest.map(|rest| rest.block(block));
-            let vertices = local.block_mut(block).iter_mut().enumerate().skip(1);
-            for (number, vertex) in vertices {
-                let ts = steps.map(|step| number as f32 * step);
-                let rest = rest.map_or(*vertex, |rest| rest[number]);
-                move_row(fields, hairs, ts, rest, vertex);
-            }
+            kinked.bend(simd, rest, local.block_mut(block));
         }
     });
 }
 
-/// Moves a vertex of each hair of a block.
-#[inline(always)]
-fn move_row(
-    fields: &NoiseFields,
-    (hairs, frames): (&[HairNoise], Frames),
-    ts: [f32; LANES],
-    rest: Rows,
-    vertex: &mut Rows,
-) {
-    let frequency = Rows::of(hairs, |hair| hair.frequency);
-    let place = |lane| frequency.get(lane) * frames.place(lane, rest.get(lane));
-    let noise = noise_row(fields.seed, &Rows::from_fn(place));
-    let amounts = fields.amounts(hairs, &ts, line);
-    *vertex = Rows::from_fn(|lane| vertex.get(lane) + noise.get(lane) * amounts[lane]);
+/// The hairs of a block, without their vertices.
+struct Kinked<'a> {
+    fields: &'a NoiseFields,
+    frequency: Rows,
+    amounts: [Row; 2],
+    frames: Frames,
+    /// From vertex to vertex.
+    steps: Row,
+}
+
+impl Kinked<'_> {
+    #[inline(always)]
+    fn bend<S: Simd>(&self, simd: S, rest: Option<&[Rows]>, hairs: &mut [Rows]) {
+        let amounts = self.amounts.map(|row| Number::load_array(simd, row));
+        let steps = Number::load_array(simd, self.steps);
+        for (number, vertex) in hairs.iter_mut().enumerate().skip(1) {
+            let local = vertex.load(simd);
+            let rest = rest.map_or(local, |rest| rest[number].load(simd));
+            let place = self.frequency.load(simd) * self.frames.place(simd, rest);
+            let amounts = self.fields.amounts(amounts, steps * number as f32, line);
+            *vertex = (local + noise_at(self.fields.seed, place) * amounts).rows();
+        }
+    }
 }

@@ -3,12 +3,13 @@
 //! Source: document 004, section 2.2.2. The only stage that sees the pose.
 
 use crate::lanes::{Frames, Rows};
+use fearless_simd::Simd;
 
 /// Moves the local vertices of hairs that lie side by side to the space of `frames`, those of
 /// their roots.
 #[inline(always)]
-pub(crate) fn to_world(frames: &Frames, hairs: &mut [Rows]) {
+pub(crate) fn to_world<S: Simd>(simd: S, frames: &Frames, hairs: &mut [Rows]) {
     for vertex in hairs {
-        *vertex = Rows::from_fn(|lane| frames.place(lane, vertex.get(lane)));
+        *vertex = frames.place(simd, vertex.load(simd)).rows();
     }
 }

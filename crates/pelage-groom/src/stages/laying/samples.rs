@@ -1,7 +1,7 @@
 //! Guides that tests of the stages mix, and what they measure of hairs.
 
 use crate::lanes::Rows;
-use crate::stages::interpolate::{self, Row, rows};
+use crate::stages::interpolate::{self, FOUR, Mix, Row, rows};
 use crate::stages::weights::Share;
 use pelage_curves::Vec3;
 use std::f32::consts::TAU;
@@ -52,7 +52,13 @@ pub fn shares(weights: &[f32]) -> Vec<Share> {
 /// The mean of guides, as vertices one after the other.
 pub fn interpolate(guides: &[Row], shares: &[Share], hair: &mut [Vec3]) {
     let mut rows = vec![Rows::default(); hair.len()];
-    interpolate::interpolate(guides, hair.len(), shares, 0, &mut rows);
+    let mut mixes = [Mix::default(); FOUR];
+    mixes[0] = Mix {
+        guides,
+        vertices: hair.len(),
+        shares,
+    };
+    interpolate::interpolate(mixes, 0, &mut rows);
     for (vertex, row) in hair.iter_mut().zip(&rows) {
         *vertex = row.get(0);
     }

@@ -11,7 +11,7 @@ use pelage::curves::{DVec3, Vec3};
 use pelage::groom::lanes::{LANES, Rows};
 use pelage::groom::random::{Channel, uniform};
 use pelage::groom::stages::frenet::{Corner, Parts, Scratch, corners, wind};
-use pelage::groom::stages::interpolate::{Row as Packed, interpolate, rows};
+use pelage::groom::stages::interpolate::{FOUR, Mix, Row as Packed, interpolate, rows};
 use pelage::groom::stages::weights::Share;
 use serde::Serialize;
 use std::hint::black_box;
@@ -159,8 +159,16 @@ fn of_vertices(all: &[Ready], wound: bool) -> Vec<Strand> {
     let mut vertices = vec![Vec3::ZERO; count * all.len()];
     let mut side_by_side = vec![Rows::default(); count];
     for (all, hairs) in all.chunks(LANES).zip(vertices.chunks_mut(count * LANES)) {
-        for (lane, ready) in all.iter().enumerate() {
-            interpolate(&ready.rows, count, &ready.shares, lane, &mut side_by_side);
+        for (lane, four) in (0..).step_by(FOUR).zip(all.chunks(FOUR)) {
+            let mut mixes = [Mix::default(); FOUR];
+            for (mix, ready) in mixes.iter_mut().zip(four) {
+                *mix = Mix {
+                    guides: &ready.rows,
+                    vertices: count,
+                    shares: &ready.shares,
+                };
+            }
+            interpolate(mixes, lane, &mut side_by_side);
         }
         for (lane, hair) in hairs.chunks_mut(count).enumerate() {
             for (vertex, row) in hair.iter_mut().zip(&side_by_side) {
