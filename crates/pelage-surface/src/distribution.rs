@@ -165,21 +165,22 @@ impl Tables<'_> {
         for k in 0..N {
             indices[k] = self.grid[(fractions[k] >> self.shift) as usize];
         }
-        let near = indices.map(|first| self.four(first as usize));
+        let [mut insides, mut widths] = [[0; N]; 2];
+        for k in 0..N {
+            let (fraction, first) = (fractions[k], indices[k] as usize);
+            let near = &self.starts[first..first + 4];
+            let further = (near[1] <= fraction) as usize + (near[2] <= fraction) as usize;
+            let start = near[further];
+            (insides[k], widths[k]) = (fraction - start, near[further + 1] - start);
+            indices[k] += further as u32;
+        }
         let mut far = false;
         for k in 0..N {
-            let (fraction, [first, second, third, fourth]) = (fractions[k], near[k]);
-            let (one, two) = (second <= fraction, third <= fraction);
-            let start = if one { second } else { first };
-            let end = if one { third } else { second };
-            let start = if two { third } else { start };
-            let end = if two { fourth } else { end };
-            rests[k] = inside(fraction, (start, end - start));
-            indices[k] += one as u32 + two as u32;
-            far |= fourth <= fraction;
+            far |= insides[k] >= widths[k];
+            rests[k] = cut(insides[k], widths[k]);
         }
         if far {
-            self.bisect_all(fractions, &near, indices, rests);
+            self.bisect_all(fractions, indices, rests);
         }
     }
 
@@ -188,13 +189,12 @@ impl Tables<'_> {
     fn bisect_all(
         self,
         fractions: &[u64],
-        near: &[[u64; 4]],
         indices: &mut [u32],
         rests: &mut [[i32; 2]],
     ) {
         let places = indices.iter_mut().zip(rests);
-        for ((&fraction, near), (index, rest)) in fractions.iter().zip(near).zip(places) {
-            if near[3] <= fraction {
+        for (&fraction, (index, rest)) in fractions.iter().zip(places) {
+            if self.starts[*index as usize + 1] <= fraction {
                 let (found, share) = self.share_around(fraction);
                 (*index, *rest) = (found as u32, inside(fraction, share));
             }
@@ -240,9 +240,15 @@ impl Tables<'_> {
 /// [`locate`](Tables::locate) gives them.
 #[inline(always)]
 fn inside(fraction: u64, (start, width): (u64, u64)) -> [i32; 2] {
+    cut(fraction - start, width)
+}
+
+/// The leading 31 bits of a width, and as many of what is inside it.
+#[inline(always)]
+fn cut(inside: u64, width: u64) -> [i32; 2] {
     let width = width.max(1);
     let cut = 33u32.saturating_sub(width.leading_zeros());
-    [((fraction - start) >> cut) as i32, (width >> cut) as i32]
+    [(inside >> cut) as i32, (width >> cut) as i32]
 }
 
 /// The element among `first..=last` in whose share `fraction` falls. Takes no more than
