@@ -11,6 +11,7 @@
 //! Where the order is of no matter, the runs of neighbours are drawn as they come along
 //! the surface.
 
+use crate::neighbours::FEW;
 use crate::sequence::Run;
 use crate::{RootSampler, SurfacePoint};
 use fearless_simd::{Level, dispatch};
@@ -23,6 +24,9 @@ const LANES: usize = 512;
 /// Roots drawn at once: their numbers stay in the first-level cache, and what one pass
 /// writes is on its way there when the next one reads it.
 const BATCH: usize = 128;
+
+/// Batches of a row of a tile.
+const BATCHES: usize = LANES / BATCH;
 
 /// Runs of an interval that are listed before they are drawn: drawing is compiled for the
 /// processor at hand, and visitors are not.
@@ -135,22 +139,41 @@ impl RootSampler {
     #[inline(always)]
     fn fill_tiles(&self, first: u64, roots: &mut [SurfacePoint], tile: &mut [SurfacePoint]) {
         let stride = roots.len() / LANES;
-        let mut batch = [SurfacePoint::default(); BATCH];
         for start in (0..stride).step_by(RUN) {
             for columns in (0..RUN).step_by(LINE) {
-                for lane in (0..LANES).step_by(BATCH) {
-                    for column in columns..columns + LINE {
-                        let hair = first + (start + column) as u64;
-                        self.draw(|k| hair + ((lane + k) * stride) as u64, &mut batch);
-                        let rows = tile[lane * ROW..].as_chunks_mut::<ROW>().0;
-                        for (row, root) in rows.iter_mut().zip(&batch) {
-                            row[column] = *root;
-                        }
-                    }
-                }
+                let hair = first + (start + columns) as u64;
+                self.fill_line(hair, stride as u64, &mut tile[columns..]);
             }
             for (k, run) in tile.chunks_exact(ROW).enumerate() {
                 roots[k * stride + start..][..RUN].copy_from_slice(&run[..RUN]);
+            }
+        }
+    }
+
+    /// Fills the first [`LINE`] columns of `tile`: the rows of hairs that are `stride` apart,
+    /// from `first` on.
+    #[inline(always)]
+    fn fill_line(&self, first: u64, stride: u64, tile: &mut [SurfacePoint]) {
+        let mut batch = [SurfacePoint::default(); BATCH];
+        // Where a row lies in few pieces, each batch takes hairs as near as can be, which lie
+        // in fewer; elsewhere each takes some of everywhere, so that the first waits for the
+        // tables of all.
+        let steps: [_; LINE] = std::array::from_fn(|column| {
+            let (hair, bits) = (first + column as u64, stride.trailing_zeros());
+            match self.are_neighbours(hair, bits, FEW * BATCHES as u32) {
+                true => [BATCHES, 1],
+                false => [1, BATCH],
+            }
+        });
+        for number in 0..BATCHES {
+            for (column, [step, next]) in steps.into_iter().enumerate() {
+                let row = number * next;
+                let hair = first + column as u64 + row as u64 * stride;
+                self.draw(|k| hair + (k * step) as u64 * stride, &mut batch);
+                let rows = tile[row * ROW..].chunks_mut(step * ROW);
+                for (row, root) in rows.zip(&batch) {
+                    row[column] = *root;
+                }
             }
         }
     }

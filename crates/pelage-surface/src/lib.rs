@@ -13,6 +13,7 @@ mod frame;
 mod hilbert;
 mod image_map;
 mod mesh;
+mod neighbours;
 mod normals;
 mod part;
 mod pdf;

@@ -251,7 +251,7 @@ impl Node {
             Some(step) => Run {
                 first: self.residue,
                 step,
-                count: (count - self.residue).div_ceil(step),
+                count: ((count - self.residue - 1) >> self.bits) + 1,
             },
         }
     }
