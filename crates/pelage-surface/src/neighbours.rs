@@ -76,18 +76,17 @@ impl<const W: usize> Row<W> {
     #[inline(always)]
     fn find<const N: usize>(&self, xs: &[u64; N], found: &mut Found<N>) {
         let starts = self.starts;
-        for k in 0..N {
-            let x = xs[k];
+        for (k, &x) in xs.iter().enumerate() {
             let (mut start, mut end) = (starts[0], starts[W - 1]);
             let (mut host, mut part) = (self.hosts[0], self.parts[0]);
-            for i in 1..W {
-                let after = starts[i] <= x;
-                start = if after { starts[i] } else { start };
+            for (i, &begin) in starts.iter().enumerate().skip(1) {
+                let after = begin <= x;
+                start = if after { begin } else { start };
                 host = if after { self.hosts[i] } else { host };
                 part = if after { self.parts[i] } else { part };
             }
-            for i in (1..W).rev() {
-                end = if starts[i] <= x { end } else { starts[i] };
+            for &begin in starts[1..].iter().rev() {
+                end = if begin <= x { end } else { begin };
             }
             (found.hosts[k], found.parts[k]) = (host, part);
             found.rests.set(k, inside(x, (start, end - start)));
@@ -115,8 +114,8 @@ mod tests {
             let pieces = Pieces::new(&pieces, weights.len() as u32).unwrap();
             let xs = dice.map(|x| middle.saturating_add(x >> width));
             let found = Found::new(&xs, distribution.tables(), pieces.names());
-            for k in 0..16 {
-                let (index, [inside, width]) = distribution.tables().locate(xs[k]);
+            for (k, &x) in xs.iter().enumerate() {
+                let (index, [inside, width]) = distribution.tables().locate(x);
                 let (triangle, part) = pieces.get(index);
                 prop_assert_eq!(found.hosts[k], triangle);
                 prop_assert_eq!(found.parts[k].part(), part);
