@@ -106,14 +106,14 @@ impl RootSampler {
                     filled += now;
                     next += now as u64;
                     if filled == BATCH {
-                        self.draw(|k| hairs[k], &mut roots);
+                        self.draw::<BATCH, true>(|k| hairs[k], &mut roots);
                         visit(&hairs, &roots);
                         filled = 0;
                     }
                 }
             }
             if filled > 0 {
-                self.draw(|k| hairs[k], &mut roots);
+                self.draw::<BATCH, true>(|k| hairs[k], &mut roots);
                 visit(&hairs[..filled], &roots[..filled]);
             }
         });
@@ -154,23 +154,34 @@ impl RootSampler {
     /// from `first` on.
     #[inline(always)]
     fn fill_line(&self, first: u64, stride: u64, tile: &mut [SurfacePoint]) {
-        let mut batch = [SurfacePoint::default(); BATCH];
+        let are_near = |column: usize| {
+            let (hair, bits) = (first + column as u64, stride.trailing_zeros());
+            self.are_neighbours(hair, bits, FEW * BATCHES as u32)
+        };
         // Where a row lies in few pieces, each batch takes hairs as near as can be, which lie
         // in fewer; elsewhere each takes some of everywhere, so that the first waits for the
         // tables of all.
-        let steps: [_; LINE] = std::array::from_fn(|column| {
-            let (hair, bits) = (first + column as u64, stride.trailing_zeros());
-            match self.are_neighbours(hair, bits, FEW * BATCHES as u32) {
-                true => [BATCHES, 1],
-                false => [1, BATCH],
-            }
-        });
+        match (0..LINE).all(are_near) {
+            true => self.fill_batches::<BATCHES, 1, true>(first, stride, tile),
+            false => self.fill_batches::<1, BATCH, false>(first, stride, tile),
+        }
+    }
+
+    /// The same in batches of hairs `STEP` rows apart, each `NEXT` rows behind the one before.
+    #[inline(always)]
+    fn fill_batches<const STEP: usize, const NEXT: usize, const NEAR: bool>(
+        &self,
+        first: u64,
+        stride: u64,
+        tile: &mut [SurfacePoint],
+    ) {
+        let mut batch = [SurfacePoint::default(); BATCH];
         for number in 0..BATCHES {
-            for (column, [step, next]) in steps.into_iter().enumerate() {
-                let row = number * next;
+            let row = number * NEXT;
+            for column in 0..LINE {
                 let hair = first + column as u64 + row as u64 * stride;
-                self.draw(|k| hair + (k * step) as u64 * stride, &mut batch);
-                let rows = tile[row * ROW..].chunks_mut(step * ROW);
+                self.draw::<BATCH, NEAR>(|k| hair + (k * STEP) as u64 * stride, &mut batch);
+                let rows = tile[row * ROW..].chunks_mut(STEP * ROW);
                 for (row, root) in rows.zip(&batch) {
                     row[column] = *root;
                 }
@@ -183,12 +194,12 @@ impl RootSampler {
         let (rows, rest) = roots.as_chunks_mut::<BATCH>();
         for (k, row) in rows.iter_mut().enumerate() {
             let hair = first + (BATCH * k) as u64;
-            self.draw(|k| hair + k as u64, row);
+            self.draw::<BATCH, false>(|k| hair + k as u64, row);
         }
         let done = BATCH * rows.len();
         for (k, root) in rest.iter_mut().enumerate() {
             let hair = first + (done + k) as u64;
-            self.draw(|_| hair, std::array::from_mut(root));
+            self.draw::<1, false>(|_| hair, std::array::from_mut(root));
         }
     }
 }

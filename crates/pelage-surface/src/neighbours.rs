@@ -22,20 +22,36 @@ pub(crate) struct Found<const N: usize> {
 }
 
 impl<const N: usize> Found<N> {
-    /// The pieces of the fractions `xs`.
     #[inline(always)]
-    pub(crate) fn new(xs: &[u64; N], tables: Tables, names: Names) -> Self {
-        let mut found = Self {
+    fn none() -> Self {
+        Self {
             hosts: [0; N],
             parts: [Packed::default(); N],
             rests: Rests::new(),
-        };
+        }
+    }
+
+    /// The pieces of the fractions `xs`, looked up one by one.
+    #[inline(always)]
+    pub(crate) fn anywhere(xs: &[u64; N], tables: Tables, names: Names) -> Self {
+        let mut found = Self::none();
+        let mut pieces = [0; N];
+        tables.locate_all(xs, &mut pieces, &mut found.rests);
+        names.get_all(&pieces, &mut found.hosts, &mut found.parts);
+        found
+    }
+
+    /// The pieces of the fractions `xs`, which may well be few. Asking costs a few percent where
+    /// they are not.
+    #[inline(always)]
+    pub(crate) fn near(xs: &[u64; N], tables: Tables, names: Names) -> Self {
+        let mut found = Self::none();
         let (mut least, mut most) = (u64::MAX, 0);
         for &x in xs {
             (least, most) = (x.min(least), x.max(most));
         }
         // The grid alone tells; waiting for the starts would hold up the many that look up.
-        let first = match N > 1 && tables.between(least, most) < FEW {
+        let first = match tables.between(least, most) < FEW {
             true => tables.share_around(least).0,
             false => usize::MAX,
         };
@@ -44,9 +60,7 @@ impl<const N: usize> Found<N> {
         } else if let Some(row) = Row::<{ FEW as usize }>::new(first, most, tables, names) {
             row.find(xs, &mut found);
         } else {
-            let mut pieces = [0; N];
-            tables.locate_all(xs, &mut pieces, &mut found.rests);
-            names.get_all(&pieces, &mut found.hosts, &mut found.parts);
+            return Self::anywhere(xs, tables, names);
         }
         found
     }
@@ -113,7 +127,7 @@ mod tests {
             let pieces: Vec<Piece> = (0..weights.len()).map(piece).collect();
             let pieces = Pieces::new(&pieces, weights.len() as u32).unwrap();
             let xs = dice.map(|x| middle.saturating_add(x >> width));
-            let found = Found::new(&xs, distribution.tables(), pieces.names());
+            let found = Found::near(&xs, distribution.tables(), pieces.names());
             for (k, &x) in xs.iter().enumerate() {
                 let (index, [inside, width]) = distribution.tables().locate(x);
                 let (triangle, part) = pieces.get(index);
