@@ -11,6 +11,7 @@
 //! Where the order is of no matter, the runs of neighbours are drawn as they come along
 //! the surface.
 
+use crate::neighbours::FEW;
 use crate::sequence::Run;
 use crate::{RootSampler, SurfacePoint};
 use fearless_simd::{Level, dispatch};
@@ -23,6 +24,9 @@ const LANES: usize = 512;
 /// Roots drawn at once: their numbers stay in the first-level cache, and what one pass
 /// writes is on its way there when the next one reads it.
 const BATCH: usize = 128;
+
+/// Batches of a row of a tile.
+const BATCHES: usize = LANES / BATCH;
 
 /// Runs of an interval that are listed before they are drawn: drawing is compiled for the
 /// processor at hand, and visitors are not.
@@ -102,14 +106,14 @@ impl RootSampler {
                     filled += now;
                     next += now as u64;
                     if filled == BATCH {
-                        self.draw(|k| hairs[k], &mut roots);
+                        self.draw::<BATCH, true>(|k| hairs[k], &mut roots);
                         visit(&hairs, &roots);
                         filled = 0;
                     }
                 }
             }
             if filled > 0 {
-                self.draw(|k| hairs[k], &mut roots);
+                self.draw::<BATCH, true>(|k| hairs[k], &mut roots);
                 visit(&hairs[..filled], &roots[..filled]);
             }
         });
@@ -135,22 +139,52 @@ impl RootSampler {
     #[inline(always)]
     fn fill_tiles(&self, first: u64, roots: &mut [SurfacePoint], tile: &mut [SurfacePoint]) {
         let stride = roots.len() / LANES;
-        let mut batch = [SurfacePoint::default(); BATCH];
         for start in (0..stride).step_by(RUN) {
             for columns in (0..RUN).step_by(LINE) {
-                for lane in (0..LANES).step_by(BATCH) {
-                    for column in columns..columns + LINE {
-                        let hair = first + (start + column) as u64;
-                        self.draw(|k| hair + ((lane + k) * stride) as u64, &mut batch);
-                        let rows = tile[lane * ROW..].as_chunks_mut::<ROW>().0;
-                        for (row, root) in rows.iter_mut().zip(&batch) {
-                            row[column] = *root;
-                        }
-                    }
-                }
+                let hair = first + (start + columns) as u64;
+                self.fill_line(hair, stride as u64, &mut tile[columns..]);
             }
             for (k, run) in tile.chunks_exact(ROW).enumerate() {
                 roots[k * stride + start..][..RUN].copy_from_slice(&run[..RUN]);
+            }
+        }
+    }
+
+    /// Fills the first [`LINE`] columns of `tile`: the rows of hairs that are `stride` apart,
+    /// from `first` on.
+    #[inline(always)]
+    fn fill_line(&self, first: u64, stride: u64, tile: &mut [SurfacePoint]) {
+        let are_near = |column: usize| {
+            let (hair, bits) = (first + column as u64, stride.trailing_zeros());
+            self.are_neighbours(hair, bits, FEW * BATCHES as u32)
+        };
+        // Where a row lies in few pieces, each batch takes hairs as near as can be, which lie
+        // in fewer; elsewhere each takes some of everywhere, so that the first waits for the
+        // tables of all.
+        match (0..LINE).all(are_near) {
+            true => self.fill_batches::<BATCHES, 1, true>(first, stride, tile),
+            false => self.fill_batches::<1, BATCH, false>(first, stride, tile),
+        }
+    }
+
+    /// The same in batches of hairs `STEP` rows apart, each `NEXT` rows behind the one before.
+    #[inline(always)]
+    fn fill_batches<const STEP: usize, const NEXT: usize, const NEAR: bool>(
+        &self,
+        first: u64,
+        stride: u64,
+        tile: &mut [SurfacePoint],
+    ) {
+        let mut batch = [SurfacePoint::default(); BATCH];
+        for number in 0..BATCHES {
+            let row = number * NEXT;
+            for column in 0..LINE {
+                let hair = first + column as u64 + row as u64 * stride;
+                self.draw::<BATCH, NEAR>(|k| hair + (k * STEP) as u64 * stride, &mut batch);
+                let rows = tile[row * ROW..].chunks_mut(STEP * ROW);
+                for (row, root) in rows.zip(&batch) {
+                    row[column] = *root;
+                }
             }
         }
     }
@@ -160,12 +194,12 @@ impl RootSampler {
         let (rows, rest) = roots.as_chunks_mut::<BATCH>();
         for (k, row) in rows.iter_mut().enumerate() {
             let hair = first + (BATCH * k) as u64;
-            self.draw(|k| hair + k as u64, row);
+            self.draw::<BATCH, false>(|k| hair + k as u64, row);
         }
         let done = BATCH * rows.len();
         for (k, root) in rest.iter_mut().enumerate() {
             let hair = first + (done + k) as u64;
-            self.draw(|_| hair, std::array::from_mut(root));
+            self.draw::<1, false>(|_| hair, std::array::from_mut(root));
         }
     }
 }

@@ -142,7 +142,7 @@ pub(crate) struct Tables<'a> {
     shift: u32,
 }
 
-impl Tables<'_> {
+impl<'a> Tables<'a> {
     /// The element, how far into its share the fraction fell, and the width of the share.
     /// Those two are cut to 31 bits, so that processors turn many into floats at once;
     /// the width is at least 1.
@@ -160,7 +160,7 @@ impl Tables<'_> {
         self,
         fractions: &[u64; N],
         indices: &mut [u32; N],
-        rests: &mut [[i32; 2]; N],
+        rests: &mut Rests<N>,
     ) {
         for k in 0..N {
             indices[k] = self.grid[(fractions[k] >> self.shift) as usize];
@@ -174,7 +174,7 @@ impl Tables<'_> {
             let end = if one { third } else { second };
             let start = if two { third } else { start };
             let end = if two { fourth } else { end };
-            rests[k] = inside(fraction, (start, end - start));
+            rests.set(k, inside(fraction, (start, end - start)));
             indices[k] += one as u32 + two as u32;
             far |= fourth <= fraction;
         }
@@ -185,18 +185,18 @@ impl Tables<'_> {
 
     /// Looks further for those that are not in the first three shares.
     #[inline(never)]
-    fn bisect_all(
+    fn bisect_all<const N: usize>(
         self,
-        fractions: &[u64],
-        near: &[[u64; 4]],
-        indices: &mut [u32],
-        rests: &mut [[i32; 2]],
+        fractions: &[u64; N],
+        near: &[[u64; 4]; N],
+        indices: &mut [u32; N],
+        rests: &mut Rests<N>,
     ) {
-        let places = indices.iter_mut().zip(rests);
-        for ((&fraction, near), (index, rest)) in fractions.iter().zip(near).zip(places) {
+        for (k, (&fraction, near)) in fractions.iter().zip(near).enumerate() {
             if near[3] <= fraction {
                 let (found, share) = self.share_around(fraction);
-                (*index, *rest) = (found as u32, inside(fraction, share));
+                indices[k] = found as u32;
+                rests.set(k, inside(fraction, share));
             }
         }
     }
@@ -207,6 +207,19 @@ impl Tables<'_> {
     pub(crate) fn share_around(self, fraction: u64) -> (usize, (u64, u64)) {
         let first = self.grid[(fraction >> self.shift) as usize] as usize;
         self.share_among(fraction, first, self.four(first))
+    }
+
+    /// How many elements lie, more or less, between those of the fractions `least` and `most`.
+    #[inline(always)]
+    pub(crate) fn between(self, least: u64, most: u64) -> u32 {
+        let element = |fraction: u64| self.grid[(fraction >> self.shift) as usize];
+        element(most) - element(least)
+    }
+
+    /// Where element `first` and the `N - 1` after it begin, if there are as many.
+    #[inline(always)]
+    pub(crate) fn row<const N: usize>(self, first: usize) -> Option<&'a [u64; N]> {
+        self.starts.get(first..)?.first_chunk()
     }
 
     /// The starts from element `first` on.
@@ -236,10 +249,37 @@ impl Tables<'_> {
     }
 }
 
+/// How far into their shares many fractions fell, and the widths of those, as
+/// [`locate`](Tables::locate) gives them.
+pub(crate) struct Rests<const N: usize> {
+    insides: [i32; N],
+    widths: [i32; N],
+}
+
+impl<const N: usize> Rests<N> {
+    pub(crate) fn new() -> Self {
+        Self {
+            insides: [0; N],
+            widths: [1; N],
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn set(&mut self, k: usize, [inside, width]: [i32; 2]) {
+        (self.insides[k], self.widths[k]) = (inside, width);
+    }
+
+    /// Number `k`, as a part of the width.
+    #[inline(always)]
+    pub(crate) fn part(&self, k: usize) -> f32 {
+        self.insides[k] as f32 / self.widths[k] as f32
+    }
+}
+
 /// How far into its share a fraction fell, and the width of the share, as
 /// [`locate`](Tables::locate) gives them.
 #[inline(always)]
-fn inside(fraction: u64, (start, width): (u64, u64)) -> [i32; 2] {
+pub(crate) fn inside(fraction: u64, (start, width): (u64, u64)) -> [i32; 2] {
     let width = width.max(1);
     let cut = 33u32.saturating_sub(width.leading_zeros());
     [((fraction - start) >> cut) as i32, (width >> cut) as i32]
@@ -323,12 +363,13 @@ mod tests {
             bits in 1u32..8,
         ) {
             let d = Distribution::with_cells(&weights, bits).unwrap();
-            let (mut indices, mut rests) = ([0; 16], [[0; 2]; 16]);
+            let (mut indices, mut rests) = ([0; 16], Rests::new());
             d.tables().locate_all(&fractions, &mut indices, &mut rests);
             for k in 0..16 {
                 let (index, share) = d.tables().share_around(fractions[k]);
                 prop_assert_eq!(indices[k] as usize, index);
-                prop_assert_eq!(rests[k], inside(fractions[k], share));
+                let rest = [rests.insides[k], rests.widths[k]];
+                prop_assert_eq!(rest, inside(fractions[k], share));
             }
         }
     }

@@ -14,6 +14,7 @@ mod frames;
 mod hilbert;
 mod image_map;
 mod mesh;
+mod neighbours;
 mod normals;
 mod part;
 mod pdf;

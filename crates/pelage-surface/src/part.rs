@@ -80,6 +80,31 @@ impl Part {
     }
 }
 
+/// A part of depth [`TABLE_DEPTH`] at most in one word, from which processors make many
+/// parts at once: its origin and size in units of the smallest part, a byte each.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Packed(u32);
+
+impl Packed {
+    pub(crate) fn new(part: Part) -> Self {
+        let [u, v, size] =
+            [part.origin[0], part.origin[1], part.size].map(|x| (x * UNITS) as i32 as u32 & 0xff);
+        Self(size << 16 | v << 8 | u)
+    }
+
+    #[inline(always)]
+    pub(crate) fn part(self) -> Part {
+        let unit = |x: u32| x as i32 as f32 * (1.0 / UNITS);
+        Part {
+            origin: [unit(self.0 & 0xff), unit(self.0 >> 8 & 0xff)],
+            size: ((self.0 << 8) as i32 >> 24) as f32 * (1.0 / UNITS),
+        }
+    }
+}
+
+/// Smallest parts of the table along a side of the triangle.
+const UNITS: f32 = (1 << TABLE_DEPTH) as f32;
+
 /// Index of the first part of depth `depth`, which is the number of those above it.
 pub(crate) fn first_part(depth: u32) -> usize {
     ((1usize << (2 * depth)) - 1) / 3
@@ -99,7 +124,7 @@ pub(crate) fn parts(depth: u32) -> Vec<Part> {
     parts
 }
 
-/// Depth to which parts come from a table, at 12 bytes: 5,461 parts, which stay in the
+/// Depth to which parts come from a table: 5,461 parts, which as [`Packed`] stay in the
 /// first-level cache; below, from a part of the table inside
 /// another, which reaches [`MAX_DEPTH`].
 pub(crate) const TABLE_DEPTH: u32 = 6;
@@ -149,6 +174,13 @@ mod tests {
                 .map(|p| p.size * p.size)
                 .sum();
             assert_eq!(area, 1.0, "depth {depth}");
+        }
+    }
+
+    #[test]
+    fn a_packed_part_is_the_part() {
+        for part in parts(TABLE_DEPTH) {
+            assert_eq!(Packed::new(part).part(), part);
         }
     }
 

@@ -6,7 +6,7 @@
 //! map), parts that are too deep are named from a *split*: a part of the triangle that
 //! is listed as if it were one more triangle.
 
-use crate::part::{Part, TABLE_DEPTH, first_part, parts};
+use crate::part::{Packed, Part, TABLE_DEPTH, first_part, parts};
 use crate::subdivide::Piece;
 use std::collections::HashMap;
 
@@ -16,7 +16,7 @@ pub(crate) struct Pieces {
     /// Host and part of each piece; the part in the lower `part_bits`.
     codes: Vec<u32>,
     part_bits: u32,
-    parts: Vec<Part>,
+    parts: Vec<Packed>,
     /// Hosts from this one on are splits.
     triangles: u32,
     splits: Vec<(u32, Part)>,
@@ -37,7 +37,7 @@ impl Pieces {
         Self {
             codes,
             part_bits: part_bits(deepest),
-            parts: parts(deepest),
+            parts: packed(deepest),
             triangles,
             splits: Vec::new(),
         }
@@ -75,7 +75,7 @@ impl Pieces {
         Some(Self {
             codes,
             part_bits,
-            parts: parts(depth),
+            parts: packed(depth),
             triangles,
             splits,
         })
@@ -120,7 +120,7 @@ impl Pieces {
 pub(crate) struct Names<'a> {
     codes: &'a [u32],
     part_bits: u32,
-    parts: &'a [Part],
+    parts: &'a [Packed],
     triangles: u32,
     splits: &'a [(u32, Part)],
 }
@@ -131,45 +131,87 @@ impl Names<'_> {
     pub(crate) fn get(self, index: usize) -> (u32, Part) {
         let code = self.codes[index];
         let (host, part) = (code >> self.part_bits, self.part(code));
-        self.below(host, part).unwrap_or((host, part))
+        match host < self.triangles {
+            true => (host, part),
+            false => self.below(host, part).unwrap_or((host, part)),
+        }
     }
 
-    /// [`get`](Self::get) for many: what is read first, then what is computed.
+    /// Hosts and packed parts of `pieces`.
     #[inline(always)]
-    pub(crate) fn get_all<const N: usize>(self, pieces: &[u32; N]) -> ([u32; N], [Part; N]) {
-        let codes = pieces.map(|piece| self.codes[piece as usize]);
-        let mut parts = codes.map(|code| self.part(code));
-        let mut triangles = codes.map(|code| code >> self.part_bits);
-        let highest = triangles.iter().fold(0, |highest, &host| host.max(highest));
-        if highest >= self.triangles {
-            self.leave_splits(&mut triangles, &mut parts);
+    pub(crate) fn get_all<const N: usize>(
+        self,
+        pieces: &[u32; N],
+        hosts: &mut [u32; N],
+        parts: &mut [Packed; N],
+    ) {
+        for k in 0..N {
+            let code = self.codes[pieces[k] as usize];
+            (hosts[k], parts[k]) = (code >> self.part_bits, self.packed(code));
         }
-        (triangles, parts)
+    }
+
+    /// Hosts and packed parts of the `N` pieces from `first` on.
+    #[inline(always)]
+    pub(crate) fn row<const N: usize>(self, first: usize) -> Option<([u32; N], [Packed; N])> {
+        let codes: &[u32; N] = self.codes.get(first..)?.first_chunk()?;
+        Some((
+            codes.map(|code| code >> self.part_bits),
+            codes.map(|code| self.packed(code)),
+        ))
+    }
+
+    /// Triangles and parts of those `hosts` and `packed`: of the parts the two coordinates
+    /// of the origin and the size.
+    #[inline(always)]
+    pub(crate) fn unpacked<const N: usize>(
+        self,
+        mut hosts: [u32; N],
+        packed: &[Packed; N],
+    ) -> ([u32; N], [[f32; N]; 3]) {
+        let [mut u, mut v, mut size] = [[0.0; N]; 3];
+        let mut highest = 0;
+        for k in 0..N {
+            let part = packed[k].part();
+            ([u[k], v[k]], size[k]) = (part.origin, part.size);
+            highest = hosts[k].max(highest);
+        }
+        if highest >= self.triangles {
+            for k in 0..N {
+                if let Some((triangle, part)) = self.below(hosts[k], packed[k].part()) {
+                    (hosts[k], [u[k], v[k]], size[k]) = (triangle, part.origin, part.size);
+                }
+            }
+        }
+        (hosts, [u, v, size])
     }
 
     /// The part that `code` names, of its host.
     #[inline(always)]
-    fn part(self, code: u32) -> Part {
+    fn packed(self, code: u32) -> Packed {
         self.parts[(code & ((1 << self.part_bits) - 1)) as usize]
     }
 
-    /// Names the triangles of those `hosts` that are splits, and their parts in them.
-    #[cold]
-    #[inline(never)]
-    fn leave_splits(self, hosts: &mut [u32], parts: &mut [Part]) {
-        for (host, part) in hosts.iter_mut().zip(parts) {
-            (*host, *part) = self.below(*host, *part).unwrap_or((*host, *part));
-        }
+    /// The same, unpacked.
+    #[inline(always)]
+    fn part(self, code: u32) -> Part {
+        self.packed(code).part()
     }
 
     /// The triangle of a split, and the part of it that `part` of the split is; `None`
-    /// for a host that is a triangle.
-    #[inline]
+    /// for a host that is a triangle. Rare: not where loops over many would carry it along.
+    #[cold]
+    #[inline(never)]
     fn below(self, host: u32, part: Part) -> Option<(u32, Part)> {
         let split = host.checked_sub(self.triangles)?;
         let (triangle, base) = self.splits[split as usize];
         Some((triangle, base.part(part)))
     }
+}
+
+/// All parts down to `depth`.
+fn packed(depth: u32) -> Vec<Packed> {
+    parts(depth).into_iter().map(Packed::new).collect()
 }
 
 /// Bits of the index of a part of depth `depth` at most.
@@ -231,9 +273,13 @@ mod tests {
             let pieces = Pieces::new(&found, triangles).unwrap();
             let last = pieces.len() as u32 - 1;
             let eight = std::array::from_fn::<u32, 8, _>(|k| last.min(k as u32));
-            let (triangles, parts) = pieces.names().get_all(&eight);
+            let (mut hosts, mut packed) = ([0; 8], [Packed::default(); 8]);
+            let names = pieces.names();
+            names.get_all(&eight, &mut hosts, &mut packed);
+            let (triangles, [u, v, size]) = names.unpacked(hosts, &packed);
             for k in 0..8 {
-                prop_assert_eq!((triangles[k], parts[k]), pieces.get(eight[k] as usize));
+                let part = Part { origin: [u[k], v[k]], size: size[k] };
+                prop_assert_eq!((triangles[k], part), pieces.get(eight[k] as usize));
             }
             for (packed, piece) in pieces.iter().zip(&found) {
                 prop_assert_eq!(packed, (piece.triangle, part_named(piece.part)));

@@ -9,6 +9,8 @@
 use crate::density::{Density, DensityField};
 use crate::distribution::Distribution;
 use crate::hilbert::along_curve;
+use crate::neighbours::Found;
+use crate::part::Part;
 use crate::pieces::Pieces;
 use crate::subdivide::{Piece, Plan};
 use crate::{Mesh, RootSequence, Spread, SurfacePoint, TiledDensity};
@@ -67,7 +69,7 @@ impl RootSampler {
     /// Root of hair `index`. For many, [`roots`](Self::roots) is several times faster.
     pub fn root(&self, index: u64) -> SurfacePoint {
         let mut root = [SurfacePoint::default()];
-        self.draw(|_| index, &mut root);
+        self.draw::<1, false>(|_| index, &mut root);
         root[0]
     }
 
@@ -75,7 +77,7 @@ impl RootSampler {
     /// are evenly spread over the unit square come out in proportion to the density.
     pub fn place(&self, x: u64, y: u32) -> SurfacePoint {
         let mut place = [SurfacePoint::default()];
-        self.lead(&[x], &[y], &mut place);
+        self.lead::<1, false>(&[x], &[y], &mut place);
         place[0]
     }
 
@@ -93,33 +95,52 @@ impl RootSampler {
         }
     }
 
-    /// Draws the roots of `N` hairs at once.
+    /// Draws the roots of `N` hairs at once; `NEAR` tells that they are neighbours.
     #[inline(always)]
-    pub(crate) fn draw<const N: usize>(
+    pub(crate) fn draw<const N: usize, const NEAR: bool>(
         &self,
         hair: impl Fn(usize) -> u64,
         roots: &mut [SurfacePoint; N],
     ) {
         let (mut xs, mut ys) = ([0; N], [0; N]);
         self.sequence.samples(hair, &mut xs, &mut ys);
-        self.lead(&xs, &ys, roots);
+        self.lead::<N, NEAR>(&xs, &ys, roots);
+    }
+
+    /// Whether the hairs that share the upper `bits` bits of their first number with hair
+    /// `index` lie in no more than `most` pieces, more or less.
+    #[inline(always)]
+    pub(crate) fn are_neighbours(&self, index: u64, bits: u32, most: u32) -> bool {
+        let rest = u64::MAX.checked_shr(bits).unwrap_or(0);
+        let (x, _) = self.sequence.sample(index);
+        self.distribution.tables().between(x & !rest, x | rest) < most
     }
 
     /// Places `N` points of the unit square. In passes, so that processors do the
     /// arithmetic of many at once and wait for the memory of many at once.
     #[inline(always)]
-    fn lead<const N: usize>(&self, xs: &[u64; N], ys: &[u32; N], places: &mut [SurfacePoint; N]) {
-        let (mut rests, mut pieces) = ([[0; 2]; N], [0; N]);
-        let tables = self.distribution.tables();
-        tables.locate_all(xs, &mut pieces, &mut rests);
-        let (triangles, parts) = self.pieces.names().get_all(&pieces);
+    fn lead<const N: usize, const NEAR: bool>(
+        &self,
+        xs: &[u64; N],
+        ys: &[u32; N],
+        places: &mut [SurfacePoint; N],
+    ) {
+        let (tables, names) = (self.distribution.tables(), self.pieces.names());
+        let found = if NEAR {
+            Found::near(xs, tables, names)
+        } else {
+            Found::anywhere(xs, tables, names)
+        };
+        let (triangles, [mut u, mut v, size]) = names.unpacked(found.hosts, &found.parts);
         // Document 004, 2.1.5: a triangle's area grows with the square of the distance
         // from its first corner.
-        let [mut u, mut v] = [[0.0; N]; 2];
         for k in 0..N {
-            let [inside, width] = rests[k];
-            let root = (inside as f32 / width as f32).sqrt();
-            [u[k], v[k]] = parts[k].at(1.0 - root, fraction(ys[k]) * root);
+            let root = found.rests.part(k).sqrt();
+            let part = Part {
+                origin: [u[k], v[k]],
+                size: size[k],
+            };
+            [u[k], v[k]] = part.at(1.0 - root, fraction(ys[k]) * root);
         }
         for k in 0..N {
             let (u, v) = (u[k], v[k]);

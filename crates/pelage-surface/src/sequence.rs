@@ -67,11 +67,7 @@ impl RootSequence {
         ys: &mut [u32; N],
     ) {
         match self.spread {
-            Spread::Stratified => {
-                for k in 0..N {
-                    (xs[k], ys[k]) = self.stratified(index(k));
-                }
-            }
+            Spread::Stratified => self.stratified(index, xs, ys),
             Spread::Random => {
                 for k in 0..N {
                     (xs[k], ys[k]) = self.random(index(k));
@@ -87,20 +83,44 @@ impl RootSequence {
         (x, hash(x ^ key) as u32)
     }
 
+    /// Words of 32 bits from the indices to the numbers, so that as many as fit go at once.
     #[inline(always)]
-    fn stratified(&self, index: u64) -> (u64, u32) {
-        let x = self.first(index).reverse_bits();
-        let y = sobol_second(index as u32) ^ sobol_second((index >> 32) as u32);
-        (x, self.second.apply(y).reverse_bits())
+    fn stratified<const N: usize>(
+        &self,
+        index: impl Fn(usize) -> u64,
+        xs: &mut [u64; N],
+        ys: &mut [u32; N],
+    ) {
+        let [mut low, mut high] = [[0; N]; 2];
+        for k in 0..N {
+            let index = index(k);
+            (low[k], high[k]) = (index as u32, (index >> 32) as u32);
+        }
+        let [mut upper, mut lower] = [[0; N]; 2];
+        for k in 0..N {
+            [upper[k], lower[k]] = self.first(low[k], high[k]).map(u32::reverse_bits);
+            // Linear, so the outputs for both words need not be made.
+            let y = sobol_second(low[k] ^ high[k]);
+            ys[k] = self.second.apply(y).reverse_bits();
+        }
+        for k in 0..N {
+            xs[k] = (upper[k] as u64) << 32 | lower[k] as u64;
+        }
     }
 
-    /// The first number of element `index`, its bits reversed.
+    /// The words of the first number of the element whose index has the words `low` and
+    /// `high`; the upper first, and the bits of each reversed.
     #[inline(always)]
-    fn first(&self, index: u64) -> u64 {
-        let (low, high) = (index as u32, (index >> 32) as u32);
-        let upper = self.upper.apply(low);
-        let lower = self.lower.apply(high.wrapping_add(mix(low ^ self.key)));
-        (lower as u64) << 32 | upper as u64
+    fn first(&self, low: u32, high: u32) -> [u32; 2] {
+        let lower = high.wrapping_add(mix(low ^ self.key));
+        [self.upper.apply(low), self.lower.apply(lower)]
+    }
+
+    /// Bit number `bit`, from the highest, of the first number of element `index`.
+    #[inline(always)]
+    fn bit(&self, index: u64, bit: u32) -> u64 {
+        let [upper, lower] = self.first(index as u32, (index >> 32) as u32);
+        ((lower as u64) << 32 | upper as u64) >> bit & 1
     }
 
     /// Calls `visit` with every index below `count` whose first number lies in
@@ -159,7 +179,7 @@ impl RootSequence {
                 visit(run);
             }
         } else {
-            let own = self.first(node.residue) >> node.bits & 1;
+            let own = self.bit(node.residue, node.bits);
             for bit in [0, 1] {
                 let residue = if bit == own {
                     node.residue
@@ -231,7 +251,7 @@ impl Node {
             Some(step) => Run {
                 first: self.residue,
                 step,
-                count: (count - self.residue).div_ceil(step),
+                count: ((count - self.residue - 1) >> self.bits) + 1,
             },
         }
     }
