@@ -204,6 +204,16 @@ fn mix(parts: Parts, corners: &mut [Corner]) {
 /// and what is so small that its square is hardly a number.
 #[inline(always)]
 fn turn(part: f32, whole: f32) -> (f32, f32) {
+    // Powers of two change no bit. Guides that turn back have parts a hundred million times
+    // their size, whose squares may be beyond floats.
+    const HUGE: f32 = (1u64 << 60) as f32;
+    const SMALLER: f32 = 1.0 / (1u128 << 80) as f32;
+    let scale = if part.abs().max(whole.abs()) > HUGE {
+        SMALLER
+    } else {
+        1.0
+    };
+    let (part, whole) = (part * scale, whole * scale);
     let (p, q) = (part * part, whole * whole);
     let square = p + q;
     let over = 1.0 / square;

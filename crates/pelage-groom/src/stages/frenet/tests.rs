@@ -240,6 +240,20 @@ fn hairs_change_without_a_jump_where_weights_do() {
     }
 }
 
+/// Sums of squares of the guides' squares would not fit in a float.
+#[test]
+fn guides_of_huge_size_give_finite_hairs() {
+    for exponent in [9, 12, 16] {
+        let unit = libm::powf(10.0, exponent as f32);
+        let steps = [(1., -1., -1.), (-1., 0., 1.), (1., -1., -1.), (0., 0., 0.)];
+        let vertices = steps.map(|(x, y, z)| Vec3::new(x - 1.0, y + 1.0, z + 1.0) * unit);
+        let guide: Vec<Vec3> = [Vec3::ZERO].into_iter().chain(vertices).collect();
+        let nothing = vec![Vec3::ZERO; 5];
+        let hair = frenet(&[nothing.clone(), guide, nothing], &[0.0, 0.7, 0.0]);
+        assert!(hair.iter().all(|v| v.is_finite()), "{hair:?}");
+    }
+}
+
 proptest! {
     #[test]
     fn whatever_the_guides_hairs_are_finite_and_no_longer_than_they_say(

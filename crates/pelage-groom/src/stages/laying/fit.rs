@@ -88,11 +88,12 @@ pub(super) struct Fit {
 
 impl Fit {
     pub(super) fn new(lines: &Lines, sums: &Sums, lane: usize) -> Self {
-        let (dot, cross) = (sums.dot[lane], sums.cross[lane]);
+        // f64: their squares overflow where guides are beyond 10^9.
+        let (dot, cross) = (sums.dot[lane] as f64, sums.cross[lane] as f64);
         let agreement = (dot * dot + cross * cross).sqrt();
         let mut onto = lines.onto;
         if agreement > 0.0 {
-            let (cosine, sine) = (dot / agreement, cross / agreement);
+            let (cosine, sine) = ((dot / agreement) as f32, (cross / agreement) as f32);
             let [_, u, v] = onto.0;
             onto.0[1] = u * cosine + v * sine;
             onto.0[2] = v * cosine - u * sine;
@@ -101,7 +102,7 @@ impl Fit {
         Self {
             from: lines.from,
             onto,
-            share: lines.share * smooth(agreement, full),
+            share: lines.share * smooth(agreement as f32, full),
         }
     }
 }
