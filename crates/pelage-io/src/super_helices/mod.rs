@@ -119,8 +119,19 @@ impl SuperHelices {
         self.offsets.push(self.lengths.len() as u32);
     }
 
+    /// The error that is told of `curve`, fitted with an error of at most `error`: with what
+    /// rounding to 32 bits moves it by at most.
+    ///
+    /// # Errors
+    ///
+    /// [`FitError`] for numbers that 32 bits do not hold.
+    pub fn told_error(curve: &SuperHelix, error: f64) -> Result<f32, FitError> {
+        let kept = rounding::Rounded::new(curve)?;
+        Ok(rounding::up(error + kept.moved))
+    }
+
     /// Adds `curve`, fitted to a strand of `vertices` vertices with an error of at most
-    /// `error`. What rounding to 32 bits moves it by at most is added to that.
+    /// `error`. What is kept as that is [`told_error`](Self::told_error).
     ///
     /// # Errors
     ///

@@ -84,6 +84,24 @@ pub enum ErrorBound {
     Part(f64),
 }
 
+impl ErrorBound {
+    /// What it is for a strand of the length `strand`.
+    pub fn length(self, strand: f64) -> f64 {
+        match self {
+            Self::Length(length) => length,
+            Self::Part(part) => part * strand,
+        }
+    }
+
+    /// Whether an `error` of a strand of the length `strand` is within it.
+    pub fn keeps(self, error: f64, strand: f64) -> bool {
+        match self {
+            Self::Length(length) => error <= length,
+            Self::Part(part) => error / strand <= part,
+        }
+    }
+}
+
 /// A length, or a percentage of each strand's length.
 pub fn error_bound(text: &str) -> Result<ErrorBound, String> {
     let wrong = "expected a length above 0, such as 0.02, or a part of each strand's, such as 1%";

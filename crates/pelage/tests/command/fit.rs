@@ -110,6 +110,25 @@ fn every_form_decodes_to_the_same_bytes_by_any_threads() {
     assert_eq!(strands(&few).vertex_count(3), 7);
 }
 
+/// Rounding to 32 bits moves their tips by a good part of the bound.
+#[test]
+fn strands_that_wind_much_keep_a_close_bound_as_they_are_written() {
+    let folder = Folder::new();
+    let points = (0..400).map(|i| {
+        let t = i as f64 / 400.0;
+        let angle = 20.0 * t * (1.0 + 0.2 * t);
+        [0.3 * libm::cos(angle), 0.3 * libm::sin(angle), 8.0 * t]
+    });
+    let mut text = String::new();
+    points.for_each(|[x, y, z]| writeln!(text, "v {x} {y} {z}").unwrap());
+    let line: Vec<String> = (1..=400).map(|vertex| vertex.to_string()).collect();
+    folder.write("wound.obj", &format!("{text}l {}\n", line.join(" ")));
+    let (curves, fits) = (folder.path("wound.obj"), folder.path("fits.npz"));
+    let said = pelage(&["fit", &curves, "-o", &fits, "--max-error", "0.001"]);
+    assert!(said.contains("all strands keep it"), "{said}");
+    assert!(read_super_helices(fits.as_ref()).unwrap().errors[0] <= 0.001);
+}
+
 #[test]
 fn strands_that_miss_the_bound_are_named_and_the_exit_code_tells() {
     let folder = Folder::new();

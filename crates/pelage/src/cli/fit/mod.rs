@@ -75,7 +75,7 @@ pub struct Wish {
 
 impl Wish {
     fn of(args: &FitArgs) -> Self {
-        // What rounding to 32 bits may add is left to it.
+        // What rounding to 32 bits mostly adds at most is left to it.
         const LEFT: f64 = 1.0 - 1e-3;
         let bound = args.max_error.unwrap_or(USUAL);
         match args.elements {
@@ -116,7 +116,7 @@ fn fit_all(strands: &StrandBuffer, wish: &Wish, args: &FitArgs, say: &Say) -> Re
         .build()?;
     threads.install(|| {
         let one = |index| {
-            let fitted = Fitted::new(strands.strand_points(index), wish.goal, index);
+            let fitted = Fitted::new(strands.strand_points(index), wish, index);
             bar.set(done.fetch_add(1, Ordering::Relaxed) + 1);
             fitted
         };

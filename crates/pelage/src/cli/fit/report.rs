@@ -85,12 +85,7 @@ impl<'a> Report<'a> {
         if error > self.worst.0 {
             self.worst = (error, index);
         }
-        let is_kept = match self.bound {
-            Some(ErrorBound::Length(bound)) => error <= bound,
-            Some(ErrorBound::Part(bound)) => part <= bound,
-            None => true,
-        };
-        if !is_kept {
+        if self.bound.is_some_and(|bound| !bound.keeps(error, length)) {
             self.missed.push(index);
         }
     }

@@ -1,8 +1,9 @@
 //! The fit of one strand.
 
+use super::Wish;
 use anyhow::{Context, Result};
-use pelage::curves::frenet::CatmullRom;
-use pelage::curves::super_helix::{Fit, Goal, Settings, fit};
+use pelage::curves::frenet::{CatmullRom, SpaceCurve};
+use pelage::curves::super_helix::{Fit, FitError, Goal, Settings, fit};
 use pelage::curves::{DVec3, Vec3};
 use pelage::io::SuperHelices;
 
@@ -15,14 +16,14 @@ pub enum Fitted {
 
 impl Fitted {
     /// Fits strand number `index` through `points`.
-    pub fn new(points: &[Vec3], goal: Goal, index: usize) -> Result<Self> {
+    pub fn new(points: &[Vec3], wish: &Wish, index: usize) -> Result<Self> {
         if points.is_empty() {
             return Ok(Self::Point);
         }
         let points: Vec<DVec3> = points.iter().map(|p| p.as_dvec3()).collect();
         let found = CatmullRom::new(&points)
             .map_err(Into::into)
-            .and_then(|target| fit(&target, &Settings::new(goal)));
+            .and_then(|target| within(&target, wish));
         let found = found.with_context(|| format!("strand {index} cannot be fitted"))?;
         Ok(match found.curve.length() > 0.0 {
             true => Self::Curve(Box::new(found)),
@@ -44,4 +45,30 @@ impl Fitted {
             }
         }
     }
+}
+
+/// How often a strand is fitted for a bound that rounding takes it beyond.
+const TRIES: u32 = 4;
+
+/// What is wished, as it is kept: a strand that winds much is moved by rounding more than is
+/// left to that at first, and is fitted closer.
+fn within(target: &impl SpaceCurve, wish: &Wish) -> Result<Fit, FitError> {
+    let mut found = fit(target, &Settings::new(wish.goal))?;
+    let Some(bound) = wish.bound else {
+        return Ok(found);
+    };
+    for _ in 1..TRIES {
+        let length = found.curve.length();
+        // What 32 bits do not hold is told where it is to be written.
+        let Ok(told) = SuperHelices::told_error(&found.curve, found.worst).map(f64::from) else {
+            break;
+        };
+        // Another fit is rounded a little otherwise.
+        let left = bound.length(length) - 1.1 * (told - found.worst);
+        if !found.kept || bound.keeps(told, length) || left <= 0.0 {
+            break;
+        }
+        found = fit(target, &Settings::new(Goal::Error(left)))?;
+    }
+    Ok(found)
 }
