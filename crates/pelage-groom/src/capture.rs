@@ -9,6 +9,7 @@ use crate::locator::Near;
 use crate::looks::LookScratch;
 use crate::neighbors::Neighbors;
 use crate::noise_fields::HairNoise;
+use crate::order::Parts;
 use crate::plan::Plan;
 use crate::stages::clump::Member;
 use crate::stages::flyaway::Stray;
@@ -19,7 +20,7 @@ use crate::stages::scale;
 use crate::stages::strand::{Bundle, Fiber};
 use crate::stages::weights::{Share, turn};
 use pelage_curves::Vec2;
-use pelage_surface::{RootFrame, SurfacePoint};
+use pelage_surface::{AlongSurface, RootFrame, SurfacePoint};
 use std::ops::Range;
 
 /// Hairs whose guides are fetched together: their lists (200 bytes each) stay in the
@@ -117,6 +118,11 @@ impl Capture {
         self.strays.get(i).map_or(1.0, |stray| stray.clumped)
     }
 
+    /// Number of hairs that were to be captured, with those left out.
+    pub fn asked(&self) -> u64 {
+        self.hairs.len() as u64
+    }
+
     /// Hairs left out, and why.
     pub fn dropped(&self) -> Dropped {
         self.dropped
@@ -139,6 +145,35 @@ impl Plan {
         self.capture_placed(Kind::Hairs, capture, clock, |all, places| {
             self.roots.places(hairs.clone(), places);
             all.extend(hairs);
+        });
+        self.capture_hairs(capture, clock);
+    }
+
+    /// Captures part `number` of the hairs `along` the surface, which are roots of this plan's.
+    /// Otherwise as [`capture`](Self::capture).
+    pub fn capture_along(
+        &self,
+        along: &AlongSurface,
+        number: u64,
+        capture: &mut Capture,
+        clock: &mut Clock,
+    ) {
+        self.capture_placed(Kind::Hairs, capture, clock, |all, places| {
+            along.part(number, all, places);
+        });
+        self.capture_hairs(capture, clock);
+    }
+
+    /// Captures chunk `number` of `parts`.
+    pub(crate) fn capture_part(
+        &self,
+        parts: &Parts,
+        number: u64,
+        capture: &mut Capture,
+        clock: &mut Clock,
+    ) {
+        self.capture_placed(Kind::Hairs, capture, clock, |all, places| {
+            parts.list(&self.roots, number, all, places);
         });
         self.capture_hairs(capture, clock);
     }

@@ -3,7 +3,8 @@
 use crate::capture::{Capture, Dropped};
 use crate::clock::{Clock, Stage};
 use crate::evaluate::Scratch;
-use crate::in_order::{Chunks, in_order};
+use crate::in_order::in_order;
+use crate::order::{Order, Parts};
 use crate::plan::Plan;
 use crate::pose::{Pose, Posed};
 use pelage_strands::{Amount, Sink, SinkError, StrandBuffer, StreamInfo};
@@ -22,6 +23,8 @@ const CHUNK_VERTICES: u64 = 16_384;
 pub struct Request {
     /// The hairs, by index.
     pub hairs: Range<u64>,
+    /// In which order the sink gets them.
+    pub order: Order,
     /// Threads to use; at least one is.
     pub threads: usize,
     /// The frame of a still; where [`StreamInfo::frames`] names some, it is not looked at.
@@ -84,6 +87,7 @@ pub fn generate(
     let hairs = plan.roots().rooted(request.hairs.clone());
     let total = hairs.end.saturating_sub(hairs.start);
     let each = (CHUNK_VERTICES / plan.most_vertices()).clamp(1, CHUNK);
+    let parts = Parts::new(plan.roots(), hairs, request.order, each);
     sink.begin(&StreamInfo {
         at_most: Some(Amount {
             strands: total.saturating_mul(plan.fibers() as u64),
@@ -97,7 +101,7 @@ pub fn generate(
         sink.begin_frame(index)?;
         let mut run = Run {
             plan,
-            chunks: Chunks::new(hairs.clone(), each),
+            parts: &parts,
             posed: &posed,
             done: total * index as u64,
             report: Report {
@@ -131,6 +135,8 @@ fn posed(
 #[derive(Default)]
 struct Chunk {
     strands: StrandBuffer,
+    /// Hairs that were to be made.
+    asked: u64,
     dropped: Dropped,
     clock: Clock,
 }
@@ -142,9 +148,16 @@ struct Worker {
 }
 
 impl Worker {
-    fn make(&mut self, plan: &Plan, hairs: Range<u64>, posed: &Posed, chunk: &mut Chunk) {
+    fn make(
+        &mut self,
+        plan: &Plan,
+        (parts, number): (&Parts, u64),
+        posed: &Posed,
+        chunk: &mut Chunk,
+    ) {
         chunk.clock = Clock::default();
-        plan.capture(hairs, &mut self.capture, &mut chunk.clock);
+        plan.capture_part(parts, number, &mut self.capture, &mut chunk.clock);
+        chunk.asked = self.capture.asked();
         chunk.dropped = self.capture.dropped();
         chunk.dropped.without_length += plan.evaluate(
             &self.capture,
@@ -158,7 +171,7 @@ impl Worker {
 
 struct Run<'a> {
     plan: &'a Plan,
-    chunks: Chunks,
+    parts: &'a Parts<'a>,
     posed: &'a Posed,
     /// Hairs taken, with those of the frames before.
     done: u64,
@@ -172,20 +185,19 @@ impl Run<'_> {
         sink: &mut dyn Sink,
         progress: &mut dyn FnMut(u64) -> bool,
     ) -> Result<(), GenerateError> {
-        let (plan, posed, chunks) = (self.plan, self.posed, self.chunks.clone());
+        let (plan, posed, parts) = (self.plan, self.posed, self.parts);
         in_order(
-            chunks.count(),
+            parts.count(),
             threads,
             |worker: &mut Worker, number, chunk: &mut Chunk| {
-                worker.make(plan, chunks.get(number), posed, chunk);
+                worker.make(plan, (parts, number), posed, chunk);
             },
-            |number, chunk| self.take(number, chunk, sink, progress),
+            |_, chunk| self.take(chunk, sink, progress),
         )
     }
 
     fn take(
         &mut self,
-        number: u64,
         chunk: &Chunk,
         sink: &mut dyn Sink,
         progress: &mut dyn FnMut(u64) -> bool,
@@ -199,8 +211,7 @@ impl Run<'_> {
         self.report.strands += chunk.strands.len() as u64;
         self.report.vertices += chunk.strands.points.len() as u64;
         self.report.dropped.add(&chunk.dropped);
-        let hairs = self.chunks.get(number);
-        self.done += hairs.end - hairs.start;
+        self.done += chunk.asked;
         if progress(self.done) {
             Ok(())
         } else {

@@ -11,7 +11,8 @@ use crate::recipe::{Pattern, Recipe, Segments};
 use crate::stages::roots::Root;
 use pelage_curves::Vec2;
 use pelage_surface::{
-    BlueNoise, Mesh, PolygonMesh, RootFrame, RootSampler, Spread, SurfacePoint, VoxelRoots,
+    AlongSurface, BlueNoise, Mesh, PolygonMesh, RootFrame, RootSampler, Spread, SurfacePoint,
+    VoxelRoots,
 };
 use std::ops::Range;
 
@@ -117,6 +118,16 @@ impl RootPlan {
             (_, None) => u64::MAX,
         };
         hairs.start.min(end)..hairs.end.min(end)
+    }
+
+    /// Those of `hairs` that are [`rooted`](Self::rooted), in the order of the surface and in
+    /// parts of about `each`; `None` where no hair can grow.
+    pub fn along_surface(&self, hairs: Range<u64>, each: u64) -> Option<AlongSurface<'_>> {
+        let (sampler, hairs) = (self.sampler.as_ref()?, self.rooted(hairs));
+        Some(match &self.blue_noise {
+            None => AlongSurface::new(sampler, hairs, each),
+            Some(made) => AlongSurface::of_blue_noise(made, hairs, each),
+        })
     }
 
     /// Appends the places of `hairs`, all of which are [`rooted`](Self::rooted).

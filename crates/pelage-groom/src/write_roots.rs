@@ -2,10 +2,10 @@
 
 use crate::RootPlan;
 use crate::generate::{GenerateError, Request};
-use crate::in_order::{Chunks, in_order};
+use crate::in_order::in_order;
+use crate::order::Parts;
 use pelage_strands::{Sink, StrandBuffer};
 use pelage_surface::{Mesh, SurfacePoint};
-use std::ops::Range;
 
 /// Roots in a chunk, a power of two: drawing them is fastest in large aligned blocks,
 /// and a chunk (some 5 MB) should not take much memory.
@@ -26,12 +26,17 @@ pub fn write_roots(
 ) -> Result<u64, GenerateError> {
     sink.begin(&request.info)?;
     sink.begin_frame(0)?;
-    let chunks = Chunks::new(plan.rooted(request.hairs.clone()), CHUNK);
+    let parts = Parts::new(plan, request.hairs.clone(), request.order, CHUNK);
     let mut done = 0;
     in_order(
-        chunks.count(),
+        parts.count(),
         request.threads,
-        |places, number, out| write(plan, chunks.get(number), pose, places, out),
+        |places: &mut Vec<SurfacePoint>, number, out: &mut StrandBuffer| {
+            out.clear();
+            places.clear();
+            parts.list(plan, number, &mut out.hair_id, places);
+            write(plan, places, pose, out);
+        },
         |_, chunk: &StrandBuffer| {
             sink.write(chunk)?;
             done += chunk.len() as u64;
@@ -46,23 +51,13 @@ pub fn write_roots(
     Ok(done)
 }
 
-/// Writes the roots of `hairs` into `out`, which is emptied first.
-fn write(
-    plan: &RootPlan,
-    hairs: Range<u64>,
-    pose: Option<&Mesh>,
-    places: &mut Vec<SurfacePoint>,
-    out: &mut StrandBuffer,
-) {
-    out.clear();
-    places.clear();
-    plan.places(hairs.clone(), places);
+/// Writes the roots at `places` into `out`, which has their hairs and nothing else.
+fn write(plan: &RootPlan, places: &[SurfacePoint], pose: Option<&Mesh>, out: &mut StrandBuffer) {
     let rest = &plan.rest;
     let surface = pose.unwrap_or(rest);
-    // Array by array: neighbours in `places` lie far apart on the surface, and so
+    // Array by array: neighbours in `places` may lie far apart on the surface, and so
     // only one array of the mesh at a time competes for the cache.
     out.offsets.extend(1..=places.len() as u32);
-    out.hair_id.extend(hairs);
     let uv = |place| rest.uv(place).to_array();
     out.root_uv.extend(places.iter().map(uv));
     let group = |&uv: &[f32; 2]| plan.groups.at(uv.into());

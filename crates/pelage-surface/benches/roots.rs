@@ -63,7 +63,7 @@ fn measure(name: &str, mesh: &Mesh, map: &ImageMap, rounds: usize) -> Result<(),
         by_index = by_index.min(thread_seconds() - begun);
         let begun = thread_seconds();
         let mut next = 0;
-        sampler.roots_in(0, 1 << 64, ROOTS as u64, |_, places| {
+        sampler.roots_in(0, 1 << 64, 0..ROOTS as u64, |_, places| {
             roots[next..next + places.len()].copy_from_slice(places);
             next += places.len();
         });

@@ -65,14 +65,26 @@ impl RootSampler {
         });
     }
 
-    /// Calls `visit` with the hairs below `count` whose first number lies in `low..high`
-    /// (`high` up to 2^64) and their roots, a few at a time, in the order of the surface:
-    /// the fastest way where the order of the hairs is of no matter.
+    /// Calls `visit` with those of `hairs` whose first number lies in `low..high` (`high` up
+    /// to 2^64) and their roots, a few at a time, in the order of the surface: the fastest way
+    /// where the order of the hairs is of no matter.
     pub fn roots_in(
         &self,
         low: u64,
         high: u128,
-        count: u64,
+        hairs: Range<u64>,
+        visit: impl FnMut(&[u64], &[SurfacePoint]),
+    ) {
+        self.roots_in_runs([low as u128, high], hairs, BATCH as u64, visit);
+    }
+
+    /// The same, where among so many that follow each other the order may be any: the fewer,
+    /// the nearer they are, and the more there is to list.
+    pub(crate) fn roots_in_runs(
+        &self,
+        interval: [u128; 2],
+        hairs: Range<u64>,
+        most: u64,
         mut visit: impl FnMut(&[u64], &[SurfacePoint]),
     ) {
         let mut runs = Vec::with_capacity(RUNS);
@@ -83,8 +95,7 @@ impl RootSampler {
                 runs.clear();
             }
         };
-        self.sequence()
-            .runs_in([low as u128, high], count, BATCH as u64, listed);
+        self.sequence().runs_in(interval, hairs, most, listed);
         self.draw_runs(&runs, &mut visit);
     }
 
@@ -258,7 +269,7 @@ mod tests {
         for sampler in [even.clone().with_spread(Spread::Random), even] {
             for (low, high) in [(0, 1 << 64), (1 << 61, 5 << 61), (77, 78)] {
                 let mut found = Vec::new();
-                sampler.roots_in(low, high, 30_000, |hairs, roots| {
+                sampler.roots_in(low, high, 7..30_000, |hairs, roots| {
                     for (&hair, root) in hairs.iter().zip(roots) {
                         assert_eq!(*root, sampler.root(hair));
                         found.push(hair);
@@ -266,7 +277,7 @@ mod tests {
                 });
                 let mut expected = Vec::new();
                 let visit = &mut |hair| expected.push(hair);
-                sampler.sequence().indices_in(low, high, 30_000, visit);
+                sampler.sequence().indices_in(low, high, 7..30_000, visit);
                 found.sort_unstable();
                 expected.sort_unstable();
                 assert_eq!(found, expected);

@@ -15,6 +15,8 @@
 //! The scramble can be undone bit by bit (architecture.md, law 3): all hairs whose
 //! first number starts with k given bits are r, r + 2^k, r + 2·2^k, …
 
+use std::ops::Range;
+
 /// How the numbers of different hairs go together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Spread {
@@ -49,6 +51,11 @@ impl RootSequence {
             key: hash(seed ^ hash(3)) as u32,
             second: Scramble::new(seed, 4),
         }
+    }
+
+    /// How the numbers go together.
+    pub fn spread(&self) -> Spread {
+        self.spread
     }
 
     /// Element `index`: the first number as a fraction of 2^64, the second of 2^32.
@@ -123,12 +130,18 @@ impl RootSequence {
         ((lower as u64) << 32 | upper as u64) >> bit & 1
     }
 
-    /// Calls `visit` with every index below `count` whose first number lies in
-    /// `low..high` (`high` up to 2^64), in time proportional to their number plus
-    /// the logarithm of `count` (random numbers: to `count`). The order is not that of
+    /// Calls `visit` with every one of `indices` whose first number lies in `low..high`
+    /// (`high` up to 2^64), in time proportional to how many they are plus the logarithm of
+    /// `indices.end` (random numbers: to the length of `indices`). The order is not that of
     /// the indices.
-    pub fn indices_in(&self, low: u64, high: u128, count: u64, visit: &mut impl FnMut(u64)) {
-        self.runs_in([low as u128, high], count, u64::MAX, &mut |run| {
+    pub fn indices_in(
+        &self,
+        low: u64,
+        high: u128,
+        indices: Range<u64>,
+        visit: &mut impl FnMut(u64),
+    ) {
+        self.runs_in([low as u128, high], indices, u64::MAX, &mut |run| {
             (0..run.count).for_each(|k| visit(run.index(k)));
         });
     }
@@ -138,12 +151,12 @@ impl RootSequence {
     pub(crate) fn runs_in(
         &self,
         [low, high]: [u128; 2],
-        count: u64,
+        indices: Range<u64>,
         most: u64,
         visit: &mut impl FnMut(Run),
     ) {
         if self.spread == Spread::Random {
-            return (0..count)
+            return indices
                 .filter(|&index| {
                     let x = self.random(index).0 as u128;
                     low <= x && x < high
@@ -153,7 +166,7 @@ impl RootSequence {
         let interval = Interval {
             low,
             high,
-            count,
+            indices,
             most,
         };
         let all = Node {
@@ -166,15 +179,17 @@ impl RootSequence {
 
     fn descend(&self, node: Node, wanted: &Interval, visit: &mut impl FnMut(Run)) {
         let (start, end) = node.interval();
-        if node.residue >= wanted.count || end <= wanted.low || start >= wanted.high {
+        if end <= wanted.low || start >= wanted.high {
             return;
         }
-        let run = node.run(wanted.count);
+        let Some(run) = node.run(&wanted.indices) else {
+            return;
+        };
         let inside = wanted.low <= start && end <= wanted.high;
         if inside && run.count <= wanted.most {
             visit(run);
         } else if run.count == 1 {
-            let x = self.sample(node.residue).0 as u128;
+            let x = self.sample(run.first).0 as u128;
             if inside || wanted.low <= x && x < wanted.high {
                 visit(run);
             }
@@ -184,7 +199,7 @@ impl RootSequence {
                 let residue = if bit == own {
                     node.residue
                 } else {
-                    node.residue | run.step
+                    node.residue | 1 << node.bits
                 };
                 let child = Node {
                     prefix: node.prefix << 1 | bit as u128,
@@ -221,12 +236,12 @@ impl Run {
     }
 }
 
-/// Which indices are wanted: those below `count` with a first number in `low..high`, at
-/// most `most` a run.
+/// Which are wanted: those of `indices` with a first number in `low..high`, at most `most`
+/// a run.
 struct Interval {
     low: u128,
     high: u128,
-    count: u64,
+    indices: Range<u64>,
     most: u64,
 }
 
@@ -244,16 +259,20 @@ impl Node {
         (self.prefix << shift, (self.prefix + 1) << shift)
     }
 
-    /// The indices below `count`, of which there is one.
-    fn run(&self, count: u64) -> Run {
-        match 1u64.checked_shl(self.bits) {
-            None => Run::one(self.residue),
-            Some(step) => Run {
-                first: self.residue,
-                step,
-                count: ((count - self.residue - 1) >> self.bits) + 1,
-            },
-        }
+    /// Those of `wanted`, if there are any.
+    fn run(&self, wanted: &Range<u64>) -> Option<Run> {
+        let Some(step) = 1u64.checked_shl(self.bits) else {
+            return wanted
+                .contains(&self.residue)
+                .then(|| Run::one(self.residue));
+        };
+        let skipped = wanted.start.saturating_sub(self.residue).div_ceil(step);
+        let first = self.residue.checked_add(skipped.checked_mul(step)?)?;
+        (first < wanted.end).then(|| Run {
+            first,
+            step,
+            count: ((wanted.end - first - 1) >> self.bits) + 1,
+        })
     }
 }
 
@@ -399,7 +418,7 @@ mod tests {
         let sequence = RootSequence::new(3, Spread::Stratified);
         let mut highest = 0;
         let mut found = 0;
-        sequence.runs_in([0, 1 << 64], 5000, 8, &mut |run| {
+        sequence.runs_in([0, 1 << 64], 0..5000, 8, &mut |run| {
             assert!(run.count <= 8);
             let numbers = (0..run.count).map(|k| sequence.sample(run.index(k)).0);
             let numbers: Vec<u64> = numbers.collect();
@@ -413,15 +432,15 @@ mod tests {
     proptest! {
         #[test]
         fn listing_an_interval_finds_exactly_its_hairs(
-            seed: u64, count in 0u64..600, a: u64, b: u64, dice: bool,
+            seed: u64, from in 0u64..300, count in 0u64..600, a: u64, b: u64, dice: bool,
         ) {
             let spread = if dice { Spread::Random } else { Spread::Stratified };
             let sequence = RootSequence::new(seed, spread);
             let (low, high) = (a.min(b), a.max(b) as u128 + 1);
             let mut found = Vec::new();
-            sequence.indices_in(low, high, count, &mut |i| found.push(i));
+            sequence.indices_in(low, high, from..count, &mut |i| found.push(i));
             found.sort_unstable();
-            let expected: Vec<u64> = (0..count)
+            let expected: Vec<u64> = (from..count)
                 .filter(|&i| {
                     let x = sequence.sample(i).0;
                     x >= low && (x as u128) < high
@@ -435,7 +454,7 @@ mod tests {
             let sequence = RootSequence::new(seed, Spread::Stratified);
             let mut found = 0;
             let width = 1u128 << 28; // expects 2^40 · 2^28 / 2^64 = 16 hairs
-            sequence.indices_in(low, low as u128 + width, 1 << 40, &mut |_| found += 1);
+            sequence.indices_in(low, low as u128 + width, 0..1 << 40, &mut |_| found += 1);
             prop_assert!(found <= 40, "{}", found);
         }
     }

@@ -80,7 +80,7 @@ impl<'a> VoxelRoots<'a> {
                 let mut hairs = Vec::new();
                 for &(low, high) in intervals.get(cell).map_or(&[][..], |i| &i[..]) {
                     let visit = &mut |hair| hairs.push(hair);
-                    sampler.sequence().indices_in(low, high, count, visit);
+                    sampler.sequence().indices_in(low, high, 0..count, visit);
                 }
                 hairs.sort_unstable();
                 hairs

@@ -5,7 +5,7 @@
 use pelage::groom::{Groom, Images};
 use pelage::io::{WriteOptions, sink_for};
 use pelage::strands::StreamInfo;
-use pelage::{Plan, Pose, Recipe, Report, Request, Sink, generate};
+use pelage::{Order, Plan, Pose, Recipe, Report, Request, Sink, generate};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -45,6 +45,7 @@ fn plan() -> Result<Plan, Box<dyn std::error::Error>> {
 
 fn run(plan: &Plan, threads: usize, sink: &mut dyn Sink) -> Result<Report, String> {
     let request = Request {
+        order: Order::default(),
         frame: 0.0,
         hairs: 0..HAIRS,
         threads,

@@ -31,5 +31,7 @@ pub use pelage_strands as strands;
 pub use pelage_surface as surface;
 
 pub use pelage_groom::recipe::Recipe;
-pub use pelage_groom::{Groom, Plan, Pose, Report, Request, RootPlan, generate, write_roots};
+pub use pelage_groom::{
+    Groom, Order, Plan, Pose, Report, Request, RootPlan, generate, write_roots,
+};
 pub use pelage_strands::{Collect, Sink, StrandBuffer};

@@ -4,7 +4,7 @@ use crate::poses::{PoseFiles, PoseSource};
 use crate::udim;
 use pelage_curves::Vec3;
 use pelage_groom::recipe::{GuideSource, Recipe, RecipeError, Up};
-use pelage_groom::{Groom, Images, Plan, Request, RootPlan};
+use pelage_groom::{Groom, Images, Order, Plan, Request, RootPlan};
 use pelage_io::{
     MeshFile, ReadError, read_curves, read_image, read_mesh, strands_through_vertices,
 };
@@ -31,6 +31,7 @@ impl Loaded {
     /// A request for `hairs` on `threads` threads, as a still.
     pub fn request(&self, hairs: Range<u64>, threads: usize) -> Request {
         Request {
+            order: Order::default(),
             frame: 0.0,
             hairs,
             threads,

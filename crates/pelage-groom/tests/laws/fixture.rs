@@ -3,7 +3,7 @@
 use pelage_curves::Vec3;
 use pelage_curves::glam::Mat3;
 use pelage_groom::recipe::Recipe;
-use pelage_groom::{Capture, Clock, Groom, Images, Plan, Pose, Request, Scratch, generate};
+use pelage_groom::{Capture, Clock, Groom, Images, Order, Plan, Pose, Request, Scratch, generate};
 use pelage_strands::{Collect, StrandBuffer, StreamInfo};
 use pelage_surface::{ImageMap, Mesh, PolygonMesh};
 use std::ops::Range;
@@ -223,6 +223,7 @@ pub fn along_normals(count: u64, more: &str) -> (Plan, Vec<Vec<Vec3>>) {
 /// Asks for `hairs` on `threads` threads, as a still.
 pub fn request(hairs: Range<u64>, threads: usize) -> Request {
     Request {
+        order: Order::default(),
         hairs,
         threads,
         frame: 0.0,
@@ -232,11 +233,15 @@ pub fn request(hairs: Range<u64>, threads: usize) -> Request {
 
 /// The strands of `hairs` by the threaded run.
 pub fn collect(plan: &Plan, hairs: Range<u64>, threads: usize) -> StrandBuffer {
+    collected(plan, &request(hairs, threads))
+}
+
+/// The strands that are asked for.
+pub fn collected(plan: &Plan, request: &Request) -> StrandBuffer {
     let mut sink = Collect::default();
-    let request = request(hairs, threads);
     generate(
         plan,
-        &request,
+        request,
         &mut |_| Ok(Pose::default()),
         &mut sink,
         &mut |_| true,

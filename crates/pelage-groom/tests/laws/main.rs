@@ -7,6 +7,7 @@ mod clump;
 mod fixture;
 mod interpolation;
 mod look;
+mod order;
 mod pose;
 mod ramp;
 mod strand;

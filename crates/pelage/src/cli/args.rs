@@ -292,9 +292,31 @@ pub struct RunArgs {
     /// Seed to use instead of the recipe's hair.seed.
     #[arg(long)]
     pub seed: Option<u64>,
+    /// The order in which hairs come; each is the same in any.
+    #[arg(long, value_enum, default_value_t, value_name = "ORDER")]
+    pub order: HairOrder,
     /// Threads to use; 0 is one a core. The bytes are the same for any number.
     #[arg(long, default_value_t = 0, value_name = "N")]
     pub threads: usize,
+}
+
+/// The order in which hairs come.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum HairOrder {
+    /// By their numbers: the first of them are a thinner coat.
+    #[default]
+    Index,
+    /// Neighbours after each other: faster to make, and nearer together in files and renderers.
+    Surface,
+}
+
+impl From<HairOrder> for pelage::Order {
+    fn from(order: HairOrder) -> Self {
+        match order {
+            HairOrder::Index => Self::Index,
+            HairOrder::Surface => Self::Surface,
+        }
+    }
 }
 
 impl RunArgs {
@@ -367,6 +389,7 @@ Examples:
   pelage generate groom.toml -o hair.usdc
   pelage generate groom.toml -o hair.npz --count 1000
   pelage generate groom.toml -o part.npz --range 0..500000
+  pelage generate groom.toml -o hair.usdc --order surface
   pelage generate groom.toml -o hair.usdc --frames 1-48
   pelage generate groom.toml -o null --picture look.png --stats -";
 

@@ -75,6 +75,7 @@ impl Job {
         };
         let mut job = Self::load(recipe, args.run.threads, say)?;
         job.request.hairs = args.run.hairs(job.loaded.plan.count(), "--count")?;
+        job.request.order = args.run.order.into();
         let animated = job.loaded.poses.animated_key();
         if let Some(key) = animated.filter(|_| frames.is_empty() && args.run.frame.is_none()) {
             bail!("{key} has a pose for each frame: say which with --frame or --frames");

@@ -7,7 +7,7 @@ use crate::cli::stats::{forget_peak_memory, peak_memory};
 use anyhow::Result;
 use pelage::groom::{Capture, Clock, Pose, Posed, Scratch, Stage};
 use pelage::strands::{Null, StreamInfo};
-use pelage::{Plan, Request, Sink, StrandBuffer, generate};
+use pelage::{Order, Plan, Request, Sink, StrandBuffer, generate};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -70,6 +70,7 @@ pub struct Cold {
 /// Makes all hairs of `plan` into the null sink.
 pub fn cold(plan: &Plan, threads: usize, runs: usize) -> Result<Cold> {
     let request = Request {
+        order: Order::default(),
         hairs: 0..plan.count(),
         threads,
         frame: 0.0,

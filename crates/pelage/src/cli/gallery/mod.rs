@@ -13,7 +13,7 @@ use image::codecs::jpeg::JpegEncoder;
 use pelage::groom::recipe::{STRIPS, Strip};
 use pelage::render::{Picture, Scene, Settings, render};
 use pelage::strands::StreamInfo;
-use pelage::{Collect, Pose, Request, generate};
+use pelage::{Collect, Order, Pose, Request, generate};
 use std::process::ExitCode;
 use std::time::Instant;
 use subject::Surfaces;
@@ -98,6 +98,7 @@ fn draw(strip: &Strip, surfaces: &Surfaces, args: &GalleryArgs) -> Result<Vec<u8
 fn picture(strip: &Strip, value: &str, surfaces: &Surfaces, args: &GalleryArgs) -> Result<Picture> {
     let plan = surfaces.plan(strip.on, &subject::recipe(strip, value))?;
     let request = Request {
+        order: Order::default(),
         hairs: 0..plan.count(),
         threads: threads_of(args.threads),
         frame: FRAME,

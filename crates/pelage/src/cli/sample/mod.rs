@@ -68,6 +68,7 @@ impl Job {
             .surface(&loaded.recipe, loaded.plan.rest(), frame)?;
         Ok(Self {
             request: Request {
+                order: args.run.order.into(),
                 frame: 0.0,
                 hairs: wanted,
                 threads: threads_of(args.run.threads),
