@@ -16,16 +16,11 @@ use crate::stages::flyaway::Stray;
 use crate::stages::frizz::Frizz;
 use crate::stages::look::Look;
 use crate::stages::roots::{self, Root};
-use crate::stages::scale;
 use crate::stages::strand::{Bundle, Fiber};
-use crate::stages::weights::{Share, turn};
+use crate::stages::weights::Share;
 use pelage_curves::Vec2;
 use pelage_surface::{AlongSurface, RootFrame, SurfacePoint};
 use std::ops::Range;
-
-/// Hairs whose guides are fetched together: their lists (200 bytes each) stay in the
-/// first-level cache.
-const FETCHED: usize = 64;
 
 /// Hairs that were left out, and why.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -83,13 +78,13 @@ pub struct Capture {
     /// One for each hair, level of clumps by level.
     pub(crate) members: Vec<Member>,
     pub(crate) near: Vec<Near>,
-    dropped: Dropped,
+    pub(crate) dropped: Dropped,
     hairs: Vec<u64>,
     places: Vec<SurfacePoint>,
     pub(crate) uvs: Vec<Vec2>,
     pub(crate) columns: Columns,
     look_scratch: LookScratch,
-    neighbors: Neighbors,
+    pub(crate) neighbors: Neighbors,
 }
 
 impl Capture {
@@ -131,7 +126,7 @@ impl Capture {
 
 /// What is captured.
 #[derive(Clone, Copy)]
-enum Kind {
+pub(crate) enum Kind {
     Hairs,
     /// Those in the middles of clumps, which are whole and have nothing to do with chance.
     Middles,
@@ -292,115 +287,10 @@ impl Plan {
         self.clump(capture);
         clock.stop(Stage::Clump, started);
     }
-
-    /// Reads how long hairs are compared with their guides, and what part of them stays.
-    fn read_lengths(&self, kind: Kind, capture: &mut Capture) {
-        let Capture {
-            roots,
-            uvs,
-            columns,
-            scale,
-            cuts,
-            ..
-        } = capture;
-        list_uvs(roots, uvs);
-        let f = &self.fields;
-        let factors = columns.read([&f.scale, &f.scale_random], uvs).zip(&*roots);
-        scale.clear();
-        scale.extend(factors.map(|([amount, random], root)| match kind {
-            Kind::Hairs => scale::factor(amount, random, self.seed, root.hair),
-            Kind::Middles => amount.max(0.0),
-        }));
-        cuts.clear();
-        if let (Kind::Hairs, Some(field)) = (kind, &f.cut) {
-            field.read(uvs, cuts);
-            cuts.iter_mut().for_each(|cut| *cut = cut.clamp(0.0, 1.0));
-        }
-    }
-
-    /// Brings the guides near the hairs from `first` on into the cache.
-    fn fetch_guides(&self, capture: &Capture, first: usize) {
-        let hairs = first..capture.roots.len().min(first + FETCHED);
-        for (group, guides) in self.guides.iter().enumerate() {
-            let mine = hairs
-                .clone()
-                .filter(|&i| capture.roots[i].group as usize == group);
-            guides
-                .locator
-                .fetch(mine.map(|i| capture.frames[i].position));
-        }
-    }
-
-    /// Finds guides, weights and scale, and drops hairs that have no length.
-    fn weigh(&self, kind: Kind, capture: &mut Capture) {
-        self.read_lengths(kind, capture);
-        capture.lengths.clear();
-        capture.shares.clear();
-        capture.share_starts.clear();
-        capture.share_starts.push(0);
-        let mut kept = 0;
-        for i in 0..capture.roots.len() {
-            if i % FETCHED == 0 {
-                self.fetch_guides(capture, i);
-            }
-            let root = capture.roots[i];
-            let factor = capture.scale[i];
-            let cut = capture.cuts.get(i).copied();
-            if cut == Some(0.0) {
-                capture.dropped.cut += 1;
-                continue;
-            }
-            let Some(guides) = self
-                .guides
-                .get(root.group as usize)
-                .filter(|g| !g.is_empty())
-            else {
-                capture.dropped.without_guides += 1;
-                continue;
-            };
-            let frame = capture.frames[i];
-            self.sharing.find(guides, &frame, &mut capture.neighbors);
-            let first = capture.shares.len();
-            let mut length = 0.0;
-            for (guide, weight) in capture.neighbors.iter() {
-                if weight > 0.0 {
-                    let (c, s) = turn(&guides.frames[guide as usize], &frame);
-                    let (cosine, sine) = (weight * c, weight * s);
-                    capture.shares.push(Share {
-                        guide,
-                        weight,
-                        cosine,
-                        sine,
-                    });
-                    length += weight * guides.lengths[guide as usize];
-                }
-            }
-            // A NaN has no length either.
-            let has_length = length * factor > 0.0;
-            if !has_length {
-                capture.shares.truncate(first);
-                capture.dropped.without_length += 1;
-                continue;
-            }
-            capture.roots[kept] = root;
-            capture.frames[kept] = frame;
-            capture.scale[kept] = factor;
-            if let Some(cut) = cut {
-                capture.cuts[kept] = cut;
-            }
-            kept += 1;
-            capture.lengths.push(length * factor);
-            capture.share_starts.push(capture.shares.len() as u32);
-        }
-        capture.roots.truncate(kept);
-        capture.frames.truncate(kept);
-        capture.scale.truncate(kept);
-        capture.cuts.truncate(kept);
-    }
 }
 
 /// Writes the texture coordinates of `roots` to `uvs`, which is emptied first.
-fn list_uvs(roots: &[Root], uvs: &mut Vec<Vec2>) {
+pub(crate) fn list_uvs(roots: &[Root], uvs: &mut Vec<Vec2>) {
     uvs.clear();
     uvs.extend(roots.iter().map(|root| root.uv));
 }

@@ -5,6 +5,7 @@
 //! not wait for each other. What is done is done lane by lane, so a hair has the same bits
 //! whatever its neighbours and whatever the processor's vectors.
 
+use crate::stages::weights::Axes;
 use fearless_simd::{Bytes, Simd, SimdBase, SimdSplit, f32x4, f32x8, f32x16, f64x4};
 use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
@@ -160,7 +161,7 @@ pub(crate) fn ends<T>(things: &[T], numbers: impl Fn(&T) -> [f32; 2]) -> [Row; 2
 /// Root frames side by side.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Frames {
-    position: Rows,
+    pub position: Rows,
     tangent: Rows,
     binormal: Rows,
     normal: Rows,
@@ -175,6 +176,16 @@ impl Frames {
             tangent: Rows::of(frames, |frame| frame.tangent),
             binormal: Rows::of(frames, |frame| frame.binormal),
             normal: Rows::of(frames, |frame| frame.normal),
+        }
+    }
+
+    /// Their axes in registers.
+    #[inline(always)]
+    pub(crate) fn axes<S: Simd>(&self, simd: S) -> Axes<Number<S>> {
+        Axes {
+            tangent: self.tangent.load(simd).0,
+            binormal: self.binormal.load(simd).0,
+            normal: self.normal.load(simd).0,
         }
     }
 

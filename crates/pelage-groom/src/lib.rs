@@ -46,9 +46,11 @@ pub mod random;
 pub mod recipe;
 mod root_plan;
 mod shape;
+mod shared_lists;
 pub mod stages;
 mod stay;
 mod texture;
+mod weigh;
 mod write_roots;
 
 pub use capture::{Capture, Dropped};

@@ -98,20 +98,40 @@ impl Locator {
         self.nearest.min(self.all.len())
     }
 
-    /// Reads the lists of all `points`, whose nearest guides will be asked for next. Lists
-    /// lie far apart and a query is full of decisions, so that memory would be waited for
-    /// list by list; here many are waited for at once.
-    pub(crate) fn fetch(&self, points: impl Iterator<Item = Vec3>) {
-        let mut read = 0;
-        for point in points {
-            let cell = self.cell(point);
-            let (start, end) = (self.starts[cell], self.starts[cell + 1]);
-            // Hardly a list has more than a line and a half.
-            for at in [start, start + CANDIDATES_A_LINE] {
-                read ^= self.candidates.get(at.min(end) as usize).unwrap_or(&0);
-            }
+    /// Where the list of the guides near `point` begins and ends.
+    #[inline(always)]
+    pub(crate) fn list(&self, point: Vec3) -> [u32; 2] {
+        let cell = self.cell(point);
+        [self.starts[cell], self.starts[cell + 1]]
+    }
+
+    /// Every guide that can be among the nearest of a point with that list, ascending.
+    #[inline(always)]
+    pub(crate) fn candidates(&self, [start, end]: [u32; 2]) -> &[u32] {
+        let list = &self.candidates[start as usize..end as usize];
+        // Rounding may put a point into a cell the surface only touches, and distances
+        // beyond the range of floats are in no list.
+        match list.len() < self.nearest() {
+            true => &self.all,
+            false => list,
         }
-        std::hint::black_box(read);
+    }
+
+    /// Where guide number `guide` grows.
+    #[inline(always)]
+    pub(crate) fn root(&self, guide: u32) -> Vec3 {
+        self.roots[guide as usize]
+    }
+
+    /// Reads the memory of a list, and gives something that depends on it.
+    #[inline(always)]
+    pub(crate) fn peek(&self, [start, end]: [u32; 2]) -> u32 {
+        // Hardly a list has more than a line and a half.
+        [start, start + CANDIDATES_A_LINE]
+            .map(|at| self.candidates.get(at.min(end) as usize))
+            .into_iter()
+            .flatten()
+            .fold(0, |read, guide| read ^ guide)
     }
 
     /// Puts the guides nearest to `point` into `found`, which is emptied first; nearest
@@ -119,12 +139,7 @@ impl Locator {
     #[inline]
     pub fn query(&self, point: Vec3, found: &mut Vec<Near>) {
         found.clear();
-        let cell = self.cell(point);
-        let list = &self.candidates[self.starts[cell] as usize..self.starts[cell + 1] as usize];
-        // Rounding may put a point into a cell the surface only touches, and distances
-        // beyond the range of floats are in no list.
-        let few = list.len() < self.nearest();
-        let (list, roots) = (if few { &self.all } else { list }, &self.roots[..]);
+        let (list, roots) = (self.candidates(self.list(point)), &self.roots[..]);
         // A fixed number of slots lives in registers; those numbers are the usual ones.
         match self.nearest() {
             1 => nearest_of(list, roots, point, &mut [u64::MAX; 1], found),

@@ -10,6 +10,7 @@ use crate::recipe::{Facing, Interpolation, Method};
 use crate::stages::facing::{self, Faced};
 use crate::stages::natural::{self, Cell, Site};
 use crate::stages::weights::inverse_distance;
+use fearless_simd::Simd;
 use pelage_surface::RootFrame;
 
 /// How guides share a hair among them.
@@ -72,6 +73,16 @@ impl Sharing {
         }
     }
 
+    /// Whether distances alone say what guides weigh.
+    pub(crate) fn is_by_distance(&self) -> bool {
+        self.method == Method::InverseDistance && self.facing.is_none()
+    }
+
+    /// How many guides shape a hair.
+    pub(crate) fn wanted(&self) -> usize {
+        self.wanted
+    }
+
     /// How many guides have to be known to tell weights by distance.
     fn enough(&self) -> usize {
         match self.method {
@@ -82,7 +93,14 @@ impl Sharing {
 
     /// Finds the guides of a hair at `root` and their weights. `guides` has at least one
     /// guide.
-    pub(crate) fn find(&self, guides: &GuideSet, root: &RootFrame, found: &mut Neighbors) {
+    #[inline(always)]
+    pub(crate) fn find<S: Simd>(
+        &self,
+        simd: S,
+        guides: &GuideSet,
+        root: &RootFrame,
+        found: &mut Neighbors,
+    ) {
         guides.locator.query(root.position, &mut found.near);
         found.guides.clear();
         match (self.method, self.facing) {
@@ -91,7 +109,7 @@ impl Sharing {
             (Method::Nearest, None) => found.one(found.near.first().map(|n| n.guide)),
             (Method::InverseDistance, None) => {
                 found.guides.extend(found.near.iter().map(|n| n.guide));
-                inverse_distance(&found.near, self.wanted, &mut found.weights);
+                inverse_distance(simd, &found.near, self.wanted, &mut found.weights);
             }
         }
     }

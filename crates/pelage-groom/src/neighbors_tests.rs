@@ -1,6 +1,7 @@
 use super::*;
 use crate::Guide;
 use crate::recipe::Interpolation;
+use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec3;
 use pelage_surface::{Mesh, PolygonMesh, SurfacePoint, hash};
 
@@ -59,7 +60,7 @@ fn root(at: Vec3) -> RootFrame {
 
 fn weights(sharing: &Sharing, guides: &GuideSet, root: &RootFrame) -> Vec<f32> {
     let mut found = Neighbors::default();
-    sharing.find(guides, root, &mut found);
+    dispatch!(Level::new(), simd => sharing.find(simd, guides, root, &mut found));
     let mut weights = vec![0.0; guides.len()];
     found
         .iter()

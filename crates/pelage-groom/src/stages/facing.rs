@@ -109,6 +109,7 @@ fn power(base: f32, exponent: f32) -> f32 {
 mod tests {
     use super::*;
     use crate::stages::weights::inverse_distance;
+    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
 
     fn upright(distances: &[f32]) -> Vec<Near> {
@@ -162,7 +163,7 @@ mod tests {
             let faced: Vec<_> = near.iter().filter_map(|&n| Faced::new(n, 1.0)).collect();
             let (mut found, mut expected) = (Vec::new(), Vec::new());
             weigh(&faced, 3, 2.0, &mut found);
-            inverse_distance(&near, 3, &mut expected);
+            dispatch!(Level::new(), simd => inverse_distance(simd, &near, 3, &mut expected));
             for (a, b) in found.iter().zip(&expected) {
                 prop_assert!((a - b).abs() < 1e-4, "{found:?} {expected:?}");
             }

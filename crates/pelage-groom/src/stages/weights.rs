@@ -13,6 +13,8 @@
 //! guides carried?").
 
 use crate::locator::Near;
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f32x4};
+use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
 
 /// How much r grows where there is no (n + 1)-th guide.
@@ -34,27 +36,82 @@ pub struct Share {
 
 /// Normalised weights of the guides `near` (nearest first), written to `weights`;
 /// `wanted` is n. At most n of them are above zero.
-#[inline]
-pub fn inverse_distance(near: &[Near], wanted: usize, weights: &mut Vec<f32>) {
+#[inline(always)]
+pub(crate) fn inverse_distance<S: Simd>(
+    simd: S,
+    near: &[Near],
+    wanted: usize,
+    weights: &mut Vec<f32>,
+) {
     weights.clear();
     let (Some(first), Some(last)) = (near.first(), near.last()) else {
         return;
     };
-    // Nearer than a millionth of the radius: the weight is beyond what f32 can mix.
-    if first.square <= last.square * 1e-12 {
-        weights.push(1.0);
-        weights.resize(near.len(), 0.0);
-        return;
-    }
-    let enlarge = if near.len() <= wanted { ENLARGED } else { 1.0 };
-    let radius = last.square.sqrt() * enlarge;
+    let ends = [splat_one(simd, first.square), splat_one(simd, last.square)];
+    let falloff = Falloff::new(ends, near.len(), wanted);
+    let mut sum = 0.0;
     for guide in near {
-        let distance = guide.square.sqrt();
-        let weight = ((radius - distance) / (radius * distance)).max(0.0);
-        weights.push(weight * weight);
+        let part = falloff.part(splat_one(simd, guide.square))[0];
+        weights.push(part);
+        sum += part;
     }
-    if !normalise(weights) {
-        weights.fill(1.0 / near.len() as f32);
+    let sum = splat_one(simd, sum);
+    for (k, weight) in weights.iter_mut().enumerate() {
+        *weight = falloff.weight(k, splat_one(simd, *weight), sum)[0];
+    }
+}
+
+/// One number, where formulas are written for many.
+#[inline(always)]
+fn splat_one<S: Simd>(simd: S, number: f32) -> f32x4<S> {
+    f32x4::splat(simd, number)
+}
+
+/// How the weights of guides fall off with their distance from a hair; or from many hairs, one
+/// a lane, each with as many guides.
+#[derive(Clone, Copy)]
+pub(crate) struct Falloff<S: Simd, V: SimdFloat<S, Element = f32>> {
+    radius: V,
+    /// Whether the nearest guide is taken alone.
+    alone: V::Mask,
+    guides: usize,
+}
+
+impl<S: Simd, V: SimdFloat<S, Element = f32>> Falloff<S, V> {
+    /// For so many `guides`, of which the squared distances of the nearest and the farthest are
+    /// given; `wanted` is n.
+    #[inline(always)]
+    pub(crate) fn new([first, last]: [V; 2], guides: usize, wanted: usize) -> Self {
+        let enlarge = if guides <= wanted { ENLARGED } else { 1.0 };
+        Self {
+            radius: last.sqrt() * enlarge,
+            // Nearer than a millionth of the radius: the weight is beyond what f32 can mix.
+            alone: first.simd_le(last * 1e-12),
+            guides,
+        }
+    }
+
+    /// What a guide at a squared distance weighs, before weights are divided by their sum.
+    #[inline(always)]
+    pub(crate) fn part(&self, square: V) -> V {
+        let distance = square.sqrt();
+        let weight = (self.radius - distance) / (self.radius * distance);
+        let zero = V::splat(weight.token(), 0.0);
+        // Not a number where all are at infinity.
+        let weight = weight.simd_gt(zero).select(weight, zero);
+        weight * weight
+    }
+
+    /// The weight of guide number `k`, nearest first, from its part and the sum of all.
+    #[inline(always)]
+    pub(crate) fn weight(&self, k: usize, part: V, sum: V) -> V {
+        let simd = sum.token();
+        let (zero, all) = (V::splat(simd, 0.0), V::splat(simd, f32::INFINITY));
+        let has_sum = sum.simd_gt(zero) & sum.simd_lt(all);
+        let even = V::splat(simd, 1.0 / self.guides as f32);
+        let weight = has_sum.select(part / sum, even);
+        let alone = if k == 0 { V::splat(simd, 1.0) } else { zero };
+        self.alone.select(alone, weight)
     }
 }
 
@@ -76,28 +133,81 @@ pub(super) fn first_alone(weights: &mut [f32]) {
 }
 
 /// Cosine and sine of the turn that carries local coordinates at `guide` to `hair`.
-#[inline]
-pub fn turn(guide: &RootFrame, hair: &RootFrame) -> (f32, f32) {
-    let cosine = guide.normal.dot(hair.normal);
-    // Beyond 175° the smallest rotation has no stable axis; keep the coordinates.
-    if cosine < -0.996 {
-        return (1.0, 0.0);
+#[inline(always)]
+pub(crate) fn turn<S: Simd>(simd: S, guide: &RootFrame, hair: &RootFrame) -> [f32; 2] {
+    let (guide, hair) = (
+        Axes::<f32x4<S>>::splat(simd, guide),
+        Axes::splat(simd, hair),
+    );
+    let [cosine, sine] = guide.turn(&hair);
+    [cosine[0], sine[0]]
+}
+
+/// The axes of a frame; or of many, one a lane.
+#[derive(Clone, Copy)]
+pub(crate) struct Axes<V> {
+    pub tangent: [V; 3],
+    pub binormal: [V; 3],
+    pub normal: [V; 3],
+}
+
+impl<V> Axes<V> {
+    /// Those of `frame` in every lane.
+    #[inline(always)]
+    pub(crate) fn splat<S: Simd>(simd: S, frame: &RootFrame) -> Self
+    where
+        V: SimdFloat<S, Element = f32>,
+    {
+        Self {
+            tangent: splat(simd, frame.tangent),
+            binormal: splat(simd, frame.binormal),
+            normal: splat(simd, frame.normal),
+        }
     }
-    let carried = guide.tangent
-        - (guide.normal + hair.normal) * (guide.tangent.dot(hair.normal) / (1.0 + cosine));
-    let (c, s) = (carried.dot(hair.tangent), carried.dot(hair.binormal));
-    let length = (c * c + s * s).sqrt();
-    if length > 0.0 {
-        (c / length, s / length)
-    } else {
-        (1.0, 0.0)
+
+    /// Cosine and sine of the turn that carries local coordinates here to `hair`.
+    #[inline(always)]
+    pub(crate) fn turn<S: Simd>(&self, hair: &Self) -> [V; 2]
+    where
+        V: SimdFloat<S, Element = f32>,
+    {
+        let simd = self.normal[0].token();
+        let (zero, one) = (V::splat(simd, 0.0), V::splat(simd, 1.0));
+        let cosine = dot(self.normal, hair.normal);
+        let along = dot(self.tangent, hair.normal) / (one + cosine);
+        let mut carried = self.tangent;
+        for (k, carried) in carried.iter_mut().enumerate() {
+            *carried -= (self.normal[k] + hair.normal[k]) * along;
+        }
+        let (c, s) = (dot(carried, hair.tangent), dot(carried, hair.binormal));
+        let length = (c * c + s * s).sqrt();
+        // Beyond 175° the smallest rotation has no stable axis; keep the coordinates.
+        let stable = cosine.simd_ge(V::splat(simd, -0.996)) & length.simd_gt(zero);
+        [
+            stable.select(c / length, one),
+            stable.select(s / length, zero),
+        ]
     }
+}
+
+#[inline(always)]
+fn splat<S: Simd, V: SimdFloat<S, Element = f32>>(simd: S, vector: Vec3) -> [V; 3] {
+    [
+        V::splat(simd, vector.x),
+        V::splat(simd, vector.y),
+        V::splat(simd, vector.z),
+    ]
+}
+
+#[inline(always)]
+fn dot<S: Simd, V: SimdFloat<S>>([a, b, c]: [V; 3], [x, y, z]: [V; 3]) -> V {
+    a * x + b * y + c * z
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pelage_curves::Vec3;
+    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
 
     fn near(distances: &[f32]) -> Vec<Near> {
@@ -108,6 +218,10 @@ mod tests {
                 square: d * d,
             })
             .collect()
+    }
+
+    fn inverse_distance(near: &[Near], wanted: usize, weights: &mut Vec<f32>) {
+        dispatch!(Level::new(), simd => super::inverse_distance(simd, near, wanted, weights));
     }
 
     #[test]
@@ -156,7 +270,7 @@ mod tests {
             let world = guide.vector(vector);
             let carry = |guide: RootFrame, hair: RootFrame| {
                 let local = guide.local(world);
-                let (c, s) = turn(&guide, &hair);
+                let [c, s] = dispatch!(Level::new(), simd => turn(simd, &guide, &hair));
                 let v = Vec3::new(
                     c * local.x - s * local.y, s * local.x + c * local.y, local.z,
                 );
