@@ -5,15 +5,16 @@
 use crate::clock::{Clock, Stage};
 use crate::color::ColorMix;
 use crate::columns::Columns;
+use crate::lanes::LANES;
 use crate::locator::Near;
 use crate::looks::LookScratch;
 use crate::neighbors::Neighbors;
-use crate::noise_fields::HairNoise;
+use crate::noise_fields::NoiseRows;
 use crate::order::Parts;
 use crate::plan::Plan;
 use crate::stages::clump::Member;
 use crate::stages::flyaway::Stray;
-use crate::stages::frizz::Frizz;
+use crate::stages::frizz::FrizzRows;
 use crate::stages::look::Look;
 use crate::stages::roots::{self, Root};
 use crate::stages::strand::{Bundle, Fiber};
@@ -65,10 +66,10 @@ pub struct Capture {
     /// The colours of each hair, hair by hair: see
     /// [`ColorProfile::pieces`](crate::color_profile::ColorProfile::pieces).
     pub(crate) mixes: Vec<ColorMix>,
-    /// Empty where the recipe has none.
-    pub(crate) frizz: Vec<Frizz>,
-    /// Empty where the recipe has none.
-    pub(crate) kinks: Vec<HairNoise>,
+    /// Block by block; empty where the recipe has none.
+    pub(crate) frizz: Vec<FrizzRows>,
+    /// Block by block; empty where the recipe has none.
+    pub(crate) kinks: Vec<NoiseRows>,
     /// Empty where hairs are single.
     pub(crate) bundles: Vec<Bundle>,
     /// Those of a hair follow one another. Empty where hairs are single.
@@ -240,12 +241,12 @@ impl Plan {
         list_uvs(roots, uvs);
         frizz.clear();
         if let Some(fields) = &self.fields.frizz {
-            let hairs = roots.iter().zip(columns.read(fields.fields(), uvs));
-            frizz.extend(hairs.map(|(root, values)| fields.hair(root, values)));
+            let blocks = roots.chunks(LANES).zip(columns.rows(fields.fields(), uvs));
+            frizz.extend(blocks.map(|(roots, values)| fields.rows(roots, values)));
         }
         kinks.clear();
         if let Some(fields) = &self.fields.kink {
-            kinks.extend(columns.read(fields.fields(), uvs).map(HairNoise::new));
+            kinks.extend(columns.rows(fields.fields(), uvs).map(NoiseRows::new));
         }
     }
 
@@ -280,7 +281,6 @@ impl Plan {
             }
         }
         looks.clear();
-        mixes.clear();
         let fields = &self.fields;
         fields.read_looks(roots, uvs, self.seed, look_scratch, (looks, mixes));
         let started = clock.stop(Stage::Maps, started);

@@ -1,21 +1,23 @@
 //! Mixing two colours in HSV, Oklab or RGB.
 
-use fearless_simd::{Simd, SimdBase, SimdFloat, f32x8};
-use std::ops::{Add, Mul, Neg, Sub};
+use crate::lanes::HALF;
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f32x8};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The space in which root and tip colours are mixed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ColorSpace {
     /// Hue, saturation, value; hue on its shorter arc (document 004, 2.2.6).
     Hsv,
     /// Oklab (Ottosson 2020): even steps to the eye.
     Oklab,
     /// Linear RGB.
+    #[default]
     Rgb,
 }
 
-/// Two colours, ready to be mixed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Two colours, ready to be mixed; two black ones at first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ColorMix {
     space: ColorSpace,
     root: [f32; 3],
@@ -28,33 +30,35 @@ impl ColorMix {
     /// stay that very colour.
     pub fn new(space: ColorSpace, root: [f32; 3], tip: [f32; 3]) -> Self {
         let space = if root == tip { ColorSpace::Rgb } else { space };
-        let encode = match space {
-            ColorSpace::Hsv => hsv_from_rgb,
-            ColorSpace::Oklab => oklab_from_rgb,
-            ColorSpace::Rgb => |c| c,
+        let [root, step] = match space {
+            ColorSpace::Hsv => hsv_steps(root, tip),
+            ColorSpace::Oklab => steps(oklab_from_rgb(root), oklab_from_rgb(tip)),
+            ColorSpace::Rgb => steps(root, tip),
         };
-        let (mut from, mut to) = (encode(root), encode(tip));
-        if space == ColorSpace::Hsv {
-            // Grey has no hue: it takes the other's, so that it does not swing through
-            // red.
-            if from[1] == 0.0 {
-                from[0] = to[0];
-            } else if to[1] == 0.0 {
-                to[0] = from[0];
-            }
-        }
-        let mut step: [f32; 3] = std::array::from_fn(|k| to[k] - from[k]);
-        if space == ColorSpace::Hsv {
-            if step[0] > 180.0 {
-                step[0] -= 360.0;
-            } else if step[0] < -180.0 {
-                step[0] += 360.0;
-            }
-        }
-        Self {
-            space,
-            root: from,
-            step,
+        Self { space, root, step }
+    }
+
+    /// Writes the mixes in HSV of `roots` and `tips`, [`HALF`] at most, to `mixes`: those of
+    /// [`new`](Self::new).
+    #[inline(always)]
+    pub(crate) fn write_hsv<'a, S: Simd>(
+        simd: S,
+        roots: &[[f32; 3]],
+        tips: &[[f32; 3]],
+        mixes: impl Iterator<Item = &'a mut Self>,
+    ) {
+        let [from, step] = hsv_steps(load(simd, roots), load(simd, tips));
+        let from = [from[0].to_array(), from[1].to_array(), from[2].to_array()];
+        let step = [step[0].to_array(), step[1].to_array(), step[2].to_array()];
+        for (k, ((root, tip), mix)) in roots.iter().zip(tips).zip(mixes).enumerate() {
+            *mix = match root == tip {
+                true => Self::new(ColorSpace::Rgb, *root, *tip),
+                false => Self {
+                    space: ColorSpace::Hsv,
+                    root: [from[0][k], from[1][k], from[2][k]],
+                    step: [step[0][k], step[1][k], step[2][k]],
+                },
+            };
         }
     }
 
@@ -81,6 +85,41 @@ impl ColorMix {
     }
 }
 
+/// All reds, greens and blues of some colours, [`HALF`] at most.
+#[inline(always)]
+fn load<S: Simd>(simd: S, colors: &[[f32; 3]]) -> [f32x8<S>; 3] {
+    let mut rows = [[0.0; HALF]; 3];
+    for (k, color) in colors.iter().enumerate() {
+        [rows[0][k], rows[1][k], rows[2][k]] = *color;
+    }
+    let [r, g, b] = rows;
+    [
+        f32x8::load_array(simd, r),
+        f32x8::load_array(simd, g),
+        f32x8::load_array(simd, b),
+    ]
+}
+
+/// Where a mix begins, and how far it goes.
+#[inline(always)]
+fn steps<V: Channel>(from: [V; 3], to: [V; 3]) -> [[V; 3]; 2] {
+    [from, [to[0] - from[0], to[1] - from[1], to[2] - from[2]]]
+}
+
+/// The same in HSV, of RGB colours.
+#[inline(always)]
+fn hsv_steps<V: Channel>(root: [V; 3], tip: [V; 3]) -> [[V; 3]; 2] {
+    let (mut from, mut to) = (to_hsv(root), to_hsv(tip));
+    // Grey has no hue: it takes the other's, so that it does not swing through red.
+    from[0] = from[1].if_positive(from[0], to[0]);
+    to[0] = to[1].if_positive(to[0], from[0]);
+    let [from, mut step] = steps(from, to);
+    let (more, less) = (step[0] + 360.0, step[0] + -360.0);
+    let forward = (-step[0] + -180.0).if_positive(more, step[0]);
+    step[0] = (step[0] + -180.0).if_positive(less, forward);
+    [from, step]
+}
+
 /// A number, or many side by side, that colours are made of.
 pub(crate) trait Channel:
     Copy
@@ -90,9 +129,15 @@ pub(crate) trait Channel:
     + Sub<Output = Self>
     + Mul<Output = Self>
     + Mul<f32, Output = Self>
+    + Div<Output = Self>
 {
     fn whole(self) -> Self;
     fn smaller(self, other: Self) -> Self;
+    fn larger(self, other: Self) -> Self;
+    /// `then` where this is above 0.
+    fn if_positive(self, then: Self, otherwise: Self) -> Self;
+    /// `then` where this is `other`.
+    fn if_equal(self, other: Self, then: Self, otherwise: Self) -> Self;
     fn between_0_and_1(self) -> Self;
 }
 
@@ -105,6 +150,21 @@ impl Channel for f32 {
     #[inline(always)]
     fn smaller(self, other: Self) -> Self {
         self.min(other)
+    }
+
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        self.max(other)
+    }
+
+    #[inline(always)]
+    fn if_positive(self, then: Self, otherwise: Self) -> Self {
+        if self > 0.0 { then } else { otherwise }
+    }
+
+    #[inline(always)]
+    fn if_equal(self, other: Self, then: Self, otherwise: Self) -> Self {
+        if self == other { then } else { otherwise }
     }
 
     #[inline(always)]
@@ -125,6 +185,21 @@ impl<S: Simd> Channel for f32x8<S> {
     }
 
     #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        self.max(other)
+    }
+
+    #[inline(always)]
+    fn if_positive(self, then: Self, otherwise: Self) -> Self {
+        self.simd_gt(0.0).select(then, otherwise)
+    }
+
+    #[inline(always)]
+    fn if_equal(self, other: Self, then: Self, otherwise: Self) -> Self {
+        self.simd_eq(other).select(then, otherwise)
+    }
+
+    #[inline(always)]
     fn between_0_and_1(self) -> Self {
         self.max(0.0).min(1.0)
     }
@@ -133,24 +208,27 @@ impl<S: Simd> Channel for f32x8<S> {
 /// Hue in degrees 0..360, saturation and value in 0..=1. Everything is computed and the
 /// right one chosen, so that many colours go side by side.
 #[inline(always)]
-pub fn hsv_from_rgb([r, g, b]: [f32; 3]) -> [f32; 3] {
-    let value = r.max(g).max(b);
-    let chroma = value - r.min(g).min(b);
-    let grey = chroma <= 0.0;
-    let (apart, of) = if value == r {
-        (g - b, 0.0)
-    } else if value == g {
-        (b - r, 2.0)
-    } else {
-        (r - g, 4.0)
-    };
-    let sector = of + apart / chroma;
-    let hue = 60.0 * if sector < 0.0 { sector + 6.0 } else { sector };
-    if grey {
-        [0.0, 0.0, value]
-    } else {
-        [hue, chroma / value, value]
-    }
+pub fn hsv_from_rgb(rgb: [f32; 3]) -> [f32; 3] {
+    to_hsv(rgb)
+}
+
+#[inline(always)]
+fn to_hsv<V: Channel>([r, g, b]: [V; 3]) -> [V; 3] {
+    let value = r.larger(g).larger(b);
+    let chroma = value - r.smaller(g).smaller(b);
+    let (of_red, of_green, of_blue) = (
+        (g - b) / chroma + 0.0,
+        (b - r) / chroma + 2.0,
+        (r - g) / chroma + 4.0,
+    );
+    let sector = value.if_equal(r, of_red, value.if_equal(g, of_green, of_blue));
+    let hue = (-sector).if_positive(sector + 6.0, sector) * 60.0;
+    let none = value * 0.0;
+    [
+        chroma.if_positive(hue, none),
+        chroma.if_positive(chroma / value, none),
+        value,
+    ]
 }
 
 /// The inverse of [`hsv_from_rgb`]; any hue, taken modulo 360.

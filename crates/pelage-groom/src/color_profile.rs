@@ -2,9 +2,10 @@
 
 use crate::PlanError;
 use crate::color::{ColorMix, ColorSpace};
+use crate::lanes::HALF;
 use crate::maps::{ColorField, FieldMaker};
 use crate::recipe::{ColorProperty, Coloring};
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x8};
+use fearless_simd::{Level, Select, Simd, SimdBase, SimdMask, dispatch, f32x8};
 
 /// Colours at some places of every hair: root and tip, or the points of a ramp.
 #[derive(Clone, Debug)]
@@ -48,16 +49,32 @@ impl ColorProfile {
         self.places.len() - 1
     }
 
-    /// Appends the mixes of a hair with these colours at the places.
-    #[inline(always)]
+    /// Writes the mixes of hairs with these `colors` at each of the places to `mixes`, hair by
+    /// hair.
     pub(crate) fn mix(
         &self,
         space: ColorSpace,
-        colors: impl Fn(usize) -> [f32; 3],
+        colors: &[Vec<[f32; 3]>],
         mixes: &mut Vec<ColorMix>,
     ) {
-        let pieces = 0..self.pieces();
-        mixes.extend(pieces.map(|i| ColorMix::new(space, colors(i), colors(i + 1))));
+        let (pieces, hairs) = (self.pieces(), colors.first().map_or(0, Vec::len));
+        mixes.clear();
+        mixes.resize(hairs * pieces, ColorMix::default());
+        dispatch!(Level::new(), simd => {
+            for (piece, pair) in colors.windows(2).enumerate() {
+                let halves = pair[0].chunks(HALF).zip(pair[1].chunks(HALF));
+                for ((roots, tips), mixes) in halves.zip(mixes.chunks_mut(HALF * pieces)) {
+                    let own = mixes.iter_mut().skip(piece).step_by(pieces);
+                    if space == ColorSpace::Hsv {
+                        ColorMix::write_hsv(simd, roots, tips, own);
+                        continue;
+                    }
+                    for ((root, tip), mix) in roots.iter().zip(tips).zip(own) {
+                        *mix = ColorMix::new(space, *root, *tip);
+                    }
+                }
+            }
+        });
     }
 
     /// The colours at each of `ts` of a hair with these mixes: all reds, greens, blues.

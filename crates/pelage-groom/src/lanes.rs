@@ -147,17 +147,6 @@ fn vectors<S: Simd>([x, y, z]: [f32x8<S>; 3]) -> [Vec3; HALF] {
     vectors
 }
 
-/// Two numbers of each of the things that are side by side, [`LANES`] at most; zero in the
-/// lanes behind them.
-#[inline(always)]
-pub(crate) fn ends<T>(things: &[T], numbers: impl Fn(&T) -> [f32; 2]) -> [Row; 2] {
-    let mut rows = [[0.0; LANES]; 2];
-    for (lane, one) in things.iter().enumerate() {
-        [rows[0][lane], rows[1][lane]] = numbers(one);
-    }
-    rows
-}
-
 /// Root frames side by side.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Frames {

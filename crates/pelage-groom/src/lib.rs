@@ -63,7 +63,7 @@ pub use groups::{Group, Groups};
 pub use guide::{FarGuide, Guide};
 pub use locator::{Locator, Near};
 pub use maps::{ColorField, Images, ScalarField};
-pub use noise_fields::{HairNoise, NoiseFields};
+pub use noise_fields::NoiseFields;
 pub use order::Order;
 pub use plan::Plan;
 pub use pose::{Pose, Posed};

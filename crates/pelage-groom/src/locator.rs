@@ -7,6 +7,8 @@
 //! cells: every guide that can matter is in the list, and ties go to the guide of
 //! smaller index.
 
+use crate::lanes::{LANES, Vectors};
+use fearless_simd::{Simd, SimdBase, SimdFloat, i32x16};
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use pelage_curves::Vec3;
 use pelage_surface::Mesh;
@@ -98,10 +100,27 @@ impl Locator {
         self.nearest.min(self.all.len())
     }
 
-    /// Where the list of the guides near `point` begins and ends.
+    /// Where the list of the guides near each of `points`, which are on the surface, begins and
+    /// ends.
     #[inline(always)]
-    pub(crate) fn list(&self, point: Vec3) -> [u32; 2] {
-        let cell = self.cell(point);
+    pub(crate) fn lists<S: Simd>(&self, simd: S, points: Vectors<S>) -> [[u32; 2]; LANES] {
+        let mut cells = i32x16::splat(simd, 0);
+        for k in [2, 1, 0] {
+            let at = (points.0[k] - self.low[k]) * self.cells_a_unit;
+            let last = self.resolution[k] as i32 - 1;
+            let at: i32x16<S> = at.to_int();
+            cells = cells * self.resolution[k] as i32 + at.max(0).min(last);
+        }
+        let mut lists = [[0; 2]; LANES];
+        for (list, &cell) in lists.iter_mut().zip(cells.as_array()) {
+            *list = self.list(cell as usize);
+        }
+        lists
+    }
+
+    /// Where the list of a cell begins and ends.
+    #[inline(always)]
+    fn list(&self, cell: usize) -> [u32; 2] {
         [self.starts[cell], self.starts[cell + 1]]
     }
 
@@ -139,7 +158,10 @@ impl Locator {
     #[inline]
     pub fn query(&self, point: Vec3, found: &mut Vec<Near>) {
         found.clear();
-        let (list, roots) = (self.candidates(self.list(point)), &self.roots[..]);
+        let (list, roots) = (
+            self.candidates(self.list(self.cell(point))),
+            &self.roots[..],
+        );
         // A fixed number of slots lives in registers; those numbers are the usual ones.
         match self.nearest() {
             1 => nearest_of(list, roots, point, &mut [u64::MAX; 1], found),

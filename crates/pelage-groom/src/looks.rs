@@ -17,8 +17,8 @@ pub(crate) struct LookScratch {
 }
 
 impl Fields {
-    /// Appends the looks of the hairs at `roots`, whose texture coordinates are `uvs`, and
-    /// the mixes of their colours, hair by hair.
+    /// Appends the looks of the hairs at `roots`, whose texture coordinates are `uvs`, to
+    /// `looks`, and writes the mixes of their colours, hair by hair, to `mixes`.
     pub(crate) fn read_looks(
         &self,
         roots: &[Root],
@@ -39,7 +39,7 @@ impl Fields {
             field.read(uvs, colors);
         }
         self.tint.apply(roots, uvs, seed, columns, colors);
-        (0..roots.len()).for_each(|i| color.mix(*color_space, |place| colors[place][i], mixes));
+        color.mix(*color_space, colors, mixes);
         let ([o, p], [w, x]) = (opacity.fields(), width.fields());
         let numbers = columns.read([o, p, w, x], uvs);
         looks.extend(numbers.map(|[o, p, w, x]| Look {

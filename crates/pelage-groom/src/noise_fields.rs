@@ -2,13 +2,12 @@
 //! amounts along hairs.
 
 use crate::PlanError;
-use crate::lanes::Number;
+use crate::lanes::{Number, Row, Rows};
 use crate::maps::{FieldMaker, ScalarField};
 use crate::profile::Profile;
 use crate::random::{Channel, noise_seed};
 use crate::recipe::ScalarProperty;
 use fearless_simd::Simd;
-use pelage_curves::Vec3;
 
 /// A noise over the surface.
 #[derive(Clone, Debug)]
@@ -19,13 +18,13 @@ pub struct NoiseFields {
     pub(crate) seed: u32,
 }
 
-/// The noise of one hair.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HairNoise {
+/// The noise of hairs side by side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NoiseRows {
     /// Along the axes, per unit of the mesh; at least 0.
-    pub frequency: Vec3,
+    pub frequency: Rows,
     /// Amounts at root and tip, at least 0; with a ramp, the first multiplies it.
-    pub amount: [f32; 2],
+    pub amount: [Row; 2],
 }
 
 impl NoiseFields {
@@ -45,7 +44,7 @@ impl NoiseFields {
         Ok(Some(fields).filter(|fields| !fields.amount.is_zero()))
     }
 
-    /// Its properties, in the order in which [`HairNoise::new`] takes their values.
+    /// Its properties, in the order in which [`NoiseRows::new`] takes their values.
     pub(crate) fn fields(&self) -> [&ScalarField; 5] {
         let ([x, y, z], [root, tip]) = (&self.frequency, self.amount.fields());
         [x, y, z, root, tip]
@@ -64,12 +63,12 @@ impl NoiseFields {
     }
 }
 
-impl HairNoise {
-    /// The noise of a hair from what its properties are at its root.
-    pub(crate) fn new(values: [f32; 5]) -> Self {
-        let [x, y, z, root, tip] = values.map(|value| value.max(0.0));
+impl NoiseRows {
+    /// The noise of hairs from what its properties are at their roots.
+    pub(crate) fn new(values: [Row; 5]) -> Self {
+        let [x, y, z, root, tip] = values.map(|row| row.map(|value| value.max(0.0)));
         Self {
-            frequency: Vec3::new(x, y, z),
+            frequency: Rows([x, y, z]),
             amount: [root, tip],
         }
     }

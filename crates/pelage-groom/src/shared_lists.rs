@@ -31,7 +31,7 @@ pub(crate) struct ShareRows {
     /// Nearest guides first; those of weight 0 are no shares.
     slots: [Slot; MOST],
     /// Means of the guides' lengths.
-    pub lengths: Row,
+    lengths: Row,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -43,17 +43,22 @@ struct Slot {
 }
 
 impl ShareRows {
-    /// The shares of the hair in `lane`, nearest guide first.
+    /// Appends the shares of the hair in `lane` to `shares`, nearest guide first; gives the mean
+    /// of the guides' lengths.
     #[inline(always)]
-    pub(crate) fn shares(&self, lane: usize, nearest: usize) -> impl Iterator<Item = Share> {
-        let share = move |slot: &Slot| Share {
-            guide: slot.guides[lane],
-            weight: slot.weights[lane],
-            cosine: slot.cosines[lane],
-            sine: slot.sines[lane],
-        };
-        let all = self.slots[..nearest].iter().map(share);
-        all.filter(|share| share.weight > 0.0)
+    pub(crate) fn append(&self, lane: usize, nearest: usize, shares: &mut Vec<Share>) -> f32 {
+        shares.reserve(MOST);
+        for slot in &self.slots[..nearest] {
+            if slot.weights[lane] > 0.0 {
+                shares.push(Share {
+                    guide: slot.guides[lane],
+                    weight: slot.weights[lane],
+                    cosine: slot.cosines[lane],
+                    sine: slot.sines[lane],
+                });
+            }
+        }
+        self.lengths[lane]
     }
 
     /// Finds the shares of the hairs at `frames`, each of which has one of `choices`, by inverse

@@ -38,36 +38,59 @@ impl Plan {
 
     #[inline(always)]
     fn weigh_with<S: Simd>(&self, simd: S, capture: &mut Capture) {
-        let hairs = capture.roots.len();
         let (mut choices, mut rows) = (Vec::with_capacity(FEW), ShareRows::default());
-        for first in (0..hairs).step_by(FETCHED) {
-            let lists: [List; FETCHED] = std::array::from_fn(|k| self.list(capture, first + k));
+        let (mut frames, mut lists) = (Vec::new(), Vec::new());
+        for first in (0..capture.roots.len()).step_by(FETCHED) {
+            let end = capture.roots.len().min(first + FETCHED);
+            frames.clear();
+            frames.extend(capture.frames[first..end].chunks(LANES).map(Frames::of));
+            lists.clear();
+            for (row, frames) in frames.iter().enumerate() {
+                lists.push(self.lists(simd, capture, first + row * LANES, frames));
+            }
             fetch(&lists);
-            let ends = (first..hairs).step_by(LANES).map(|first| first + LANES);
-            for (end, lists) in ends.zip(lists.chunks(LANES)) {
-                let row = end - LANES..end.min(hairs);
+            for (row, (lists, frames)) in lists.iter().zip(&frames).enumerate() {
                 let together = self.side_by_side(lists, &mut choices);
                 if let Some(nearest) = together {
-                    let frames = Frames::of(&capture.frames[row.clone()]);
-                    let count = [nearest, self.sharing.wanted()];
-                    rows.find(simd, &choices, &frames, count);
+                    rows.find(simd, &choices, frames, [nearest, self.sharing.wanted()]);
                 }
-                for ((lane, hair), list) in row.enumerate().zip(lists) {
+                let hairs = first + row * LANES..end;
+                for (lane, (hair, list)) in hairs.zip(lists).enumerate() {
                     let Some((guides, _)) = list else {
                         capture.leave_out(hair);
                         continue;
                     };
                     let length = match together {
-                        Some(nearest) => {
-                            capture.shares.extend(rows.shares(lane, nearest));
-                            rows.lengths[lane]
-                        }
+                        Some(nearest) => rows.append(lane, nearest, &mut capture.shares),
                         None => self.weigh_one(simd, capture, hair, guides),
                     };
                     capture.keep(hair, length);
                 }
             }
         }
+    }
+
+    /// The lists of hairs side by side at `frames`, from number `first` on.
+    #[inline(always)]
+    fn lists<S: Simd>(
+        &self,
+        simd: S,
+        capture: &Capture,
+        first: usize,
+        frames: &Frames,
+    ) -> [List<'_>; LANES] {
+        let mut all = [None; LANES];
+        for (group, guides) in self.guides.iter().enumerate() {
+            let lists = guides.locator.lists(simd, frames.position.load(simd));
+            let roots = capture.roots[first..].iter().take(LANES);
+            for (lane, (root, list)) in roots.zip(lists).enumerate() {
+                let has = root.group as usize == group && !guides.is_empty();
+                if has && capture.cut(first + lane) > 0.0 {
+                    all[lane] = Some((guides, list));
+                }
+            }
+        }
+        all
     }
 
     /// Lists the `choices` of hairs side by side; gives the number of guides that each chooses
@@ -122,16 +145,6 @@ impl Plan {
             }
         }
         length
-    }
-
-    fn list(&self, capture: &Capture, hair: usize) -> List<'_> {
-        let root = capture.roots.get(hair)?;
-        if capture.cut(hair) == 0.0 {
-            return None;
-        }
-        let guides = self.guides.get(root.group as usize)?;
-        let list = guides.locator.list(capture.frames[hair].position);
-        (!guides.is_empty()).then_some((guides, list))
     }
 
     /// Reads how long hairs are compared with their guides, and what part of them stays.
@@ -199,8 +212,8 @@ impl Capture {
 /// Brings the lists into the cache. They may lie far apart, and a search is full of decisions, so
 /// that memory would be waited for list by list; here many are waited for at once.
 #[inline(always)]
-fn fetch(lists: &[List]) {
-    let lists = lists.iter().flatten();
+fn fetch(lists: &[[List; LANES]]) {
+    let lists = lists.iter().flatten().flatten();
     let read = lists.fold(0, |read, (guides, list)| read ^ guides.locator.peek(*list));
     std::hint::black_box(read);
 }

@@ -10,10 +10,10 @@
 
 use crate::PlanError;
 use crate::blocks::Blocks;
-use crate::lanes::{Number, Row, Rows, Vectors, ends};
+use crate::lanes::{Number, Row, Rows, Vectors};
 use crate::maps::{FieldMaker, ScalarField};
 use crate::noise::noise_at;
-use crate::noise_fields::{HairNoise, NoiseFields};
+use crate::noise_fields::{NoiseFields, NoiseRows};
 use crate::random::Channel;
 use crate::recipe;
 use crate::stages::roots::Root;
@@ -29,17 +29,17 @@ pub struct FrizzFields {
     direction: Vec3,
 }
 
-/// The frizz of one hair.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frizz {
-    /// Where its root lies in the domain of the noise.
-    place: Vec3,
-    /// How far that place moves in a unit of time.
-    velocity: Vec3,
+/// The frizz of hairs side by side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FrizzRows {
+    /// Where their roots lie in the domain of the noise.
+    place: Rows,
+    /// How far those places move in a unit of time.
+    velocity: Rows,
     /// Part of the frizz that moves, 0..=1.
-    moving: f32,
+    moving: Row,
     /// At root and tip, or what multiplies the ramp.
-    amount: [f32; 2],
+    amount: [Row; 2],
 }
 
 impl FrizzFields {
@@ -61,20 +61,25 @@ impl FrizzFields {
         }))
     }
 
-    /// Its properties, in the order in which [`hair`](Self::hair) takes their values.
+    /// Its properties, in the order in which [`rows`](Self::rows) takes their values.
     pub(crate) fn fields(&self) -> [&ScalarField; 7] {
         let [x, y, z, root, tip] = self.noise.fields();
         [x, y, z, root, tip, &self.speed, &self.moving]
     }
 
-    /// The frizz of the hair that grows at `root`, from what its properties are there.
-    pub(crate) fn hair(&self, root: &Root, values: [f32; 7]) -> Frizz {
+    /// The frizz of hairs that grow side by side at `roots`, from what its properties are
+    /// there.
+    pub(crate) fn rows(&self, roots: &[Root], values: [Row; 7]) -> FrizzRows {
         let [x, y, z, at_root, at_tip, speed, moving] = values;
-        let noise = HairNoise::new([x, y, z, at_root, at_tip]);
-        Frizz {
-            place: noise.frequency * root.rest,
-            velocity: self.direction * speed,
-            moving: moving.clamp(0.0, 1.0),
+        let noise = NoiseRows::new([x, y, z, at_root, at_tip]);
+        let rest = Rows::of(roots, |root| root.rest);
+        FrizzRows {
+            place: Rows(std::array::from_fn(|k| {
+                let (frequency, rest) = (&noise.frequency.0[k], &rest.0[k]);
+                std::array::from_fn(|lane| frequency[lane] * rest[lane])
+            })),
+            velocity: Rows([0, 1, 2].map(|k| speed.map(|speed| self.direction[k] * speed))),
+            moving: moving.map(|moving| moving.clamp(0.0, 1.0)),
             amount: noise.amount,
         }
     }
@@ -85,26 +90,25 @@ impl FrizzFields {
     }
 }
 
-/// Bends hairs at `time`.
-pub(crate) fn frizz(fields: &FrizzFields, hairs: &[Frizz], time: f32, local: &mut Blocks) {
+/// Bends hairs, with the frizz `rows` block by block, at `time`.
+pub(crate) fn frizz(fields: &FrizzFields, rows: &[FrizzRows], time: f32, local: &mut Blocks) {
     let moving = time != 0.0 && fields.is_moving();
     dispatch!(Level::new(), simd => {
-        for block in 0..local.blocks() {
-            let hairs = &hairs[local.hairs(block)];
+        for (block, hairs) in rows.iter().enumerate() {
             let still = noise_of(simd, fields, hairs, 0.0);
             let [x, y, z] = match moving {
                 false => still.0,
                 true => {
                     let moved = noise_of(simd, fields, hairs, time);
-                    let [part, rest] = ends(hairs, |hair| [hair.moving, 1.0 - hair.moving])
-                        .map(|row| Number::load_array(simd, row));
+                    let part = Number::load_array(simd, hairs.moving);
+                    let rest = Number::splat(simd, 1.0) - part;
                     (still * rest + moved * part).0
                 }
             };
             let toward = Vectors([x, y, -z.abs()]);
             let steps = local.steps(block);
-            let amounts = ends(hairs, |hair| hair.amount);
-            bend(simd, fields, (toward, amounts), steps, local.block_mut(block));
+            let toward = (toward, hairs.amount);
+            bend(simd, fields, toward, steps, local.block_mut(block));
         }
     });
 }
@@ -129,9 +133,9 @@ fn bend<S: Simd>(
 
 /// The noise of the hairs of a block at `time`.
 #[inline(always)]
-fn noise_of<S: Simd>(simd: S, fields: &FrizzFields, hairs: &[Frizz], time: f32) -> Vectors<S> {
-    let places = Rows::of(hairs, |hair| hair.place + hair.velocity * time);
-    noise_at(fields.noise.seed, places.load(simd))
+fn noise_of<S: Simd>(simd: S, fields: &FrizzFields, hairs: &FrizzRows, time: f32) -> Vectors<S> {
+    let moved = hairs.velocity.load(simd) * Number::splat(simd, time);
+    noise_at(fields.noise.seed, hairs.place.load(simd) + moved)
 }
 
 /// The document's amount at `t`, of those at root and tip.

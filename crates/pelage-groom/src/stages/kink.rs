@@ -7,30 +7,28 @@
 //! frequencies per unit of the mesh.
 
 use crate::blocks::Blocks;
-use crate::lanes::{Frames, Number, Row, Rows, ends};
+use crate::lanes::{Frames, Number, Row, Rows};
 use crate::noise::noise_at;
-use crate::noise_fields::{HairNoise, NoiseFields};
+use crate::noise_fields::{NoiseFields, NoiseRows};
 use crate::profile::line;
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 use pelage_surface::RootFrame;
 
-/// Moves the vertices of `local`: of hairs with such noise, whose roots have `frames` at
-/// rest. `rest` are the hairs at rest where those of `local` are others.
+/// Moves the vertices of `local`: of hairs with the noise `rows`, block by block, whose roots
+/// have `frames` at rest. `rest` are the hairs at rest where those of `local` are others.
 pub(crate) fn kink(
     fields: &NoiseFields,
-    hairs: &[HairNoise],
+    rows: &[NoiseRows],
     frames: &[RootFrame],
     rest: Option<&Blocks>,
     local: &mut Blocks,
 ) {
     dispatch!(Level::new(), simd => {
-        for block in 0..local.blocks() {
-            let range = local.hairs(block);
+        for (block, noise) in rows.iter().enumerate() {
             let kinked = Kinked {
                 fields,
-                frequency: Rows::of(&hairs[range.clone()], |hair| hair.frequency),
-                amounts: ends(&hairs[range.clone()], |hair| hair.amount),
-                frames: Frames::of(&frames[range]),
+                noise,
+                frames: Frames::of(&frames[local.hairs(block)]),
                 steps: local.steps(block),
             };
             let rest = rest.map(|rest| rest.block(block));
@@ -42,8 +40,7 @@ pub(crate) fn kink(
 /// The hairs of a block, without their vertices.
 struct Kinked<'a> {
     fields: &'a NoiseFields,
-    frequency: Rows,
-    amounts: [Row; 2],
+    noise: &'a NoiseRows,
     frames: Frames,
     /// From vertex to vertex.
     steps: Row,
@@ -52,12 +49,12 @@ struct Kinked<'a> {
 impl Kinked<'_> {
     #[inline(always)]
     fn bend<S: Simd>(&self, simd: S, rest: Option<&[Rows]>, hairs: &mut [Rows]) {
-        let amounts = self.amounts.map(|row| Number::load_array(simd, row));
+        let amounts = self.noise.amount.map(|row| Number::load_array(simd, row));
         let steps = Number::load_array(simd, self.steps);
         for (number, vertex) in hairs.iter_mut().enumerate().skip(1) {
             let local = vertex.load(simd);
             let rest = rest.map_or(local, |rest| rest[number].load(simd));
-            let place = self.frequency.load(simd) * self.frames.place(simd, rest);
+            let place = self.noise.frequency.load(simd) * self.frames.place(simd, rest);
             let amounts = self.fields.amounts(amounts, steps * number as f32, line);
             *vertex = (local + noise_at(self.fields.seed, place) * amounts).rows();
         }
