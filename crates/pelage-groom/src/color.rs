@@ -1,7 +1,7 @@
 //! Mixing two colours in HSV, Oklab or RGB.
 
 use crate::lanes::HALF;
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f32x8};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x8};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// The space in which root and tip colours are mixed.
@@ -47,17 +47,22 @@ impl ColorMix {
         tips: &[[f32; 3]],
         mixes: impl Iterator<Item = &'a mut Self>,
     ) {
-        let [from, step] = hsv_steps(load(simd, roots), load(simd, tips));
-        let from = [from[0].to_array(), from[1].to_array(), from[2].to_array()];
-        let step = [step[0].to_array(), step[1].to_array(), step[2].to_array()];
-        for (k, ((root, tip), mix)) in roots.iter().zip(tips).zip(mixes).enumerate() {
-            *mix = match root == tip {
-                true => Self::new(ColorSpace::Rgb, *root, *tip),
-                false => Self {
-                    space: ColorSpace::Hsv,
-                    root: [from[0][k], from[1][k], from[2][k]],
-                    step: [step[0][k], step[1][k], step[2][k]],
+        let (root, tip) = (load(simd, roots), load(simd, tips));
+        let [mut from, mut step] = hsv_steps(root, tip);
+        let equal = root[0].simd_eq(tip[0]) & root[1].simd_eq(tip[1]) & root[2].simd_eq(tip[2]);
+        for k in 0..3 {
+            from[k] = equal.select(root[k], from[k]);
+            step[k] = equal.select(tip[k] - root[k], step[k]);
+        }
+        let equal = equal.to_bitmask();
+        for (lane, mix) in mixes.take(roots.len()).enumerate() {
+            *mix = Self {
+                space: match equal >> lane & 1 {
+                    0 => ColorSpace::Hsv,
+                    _ => ColorSpace::Rgb,
                 },
+                root: [from[0][lane], from[1][lane], from[2][lane]],
+                step: [step[0][lane], step[1][lane], step[2][lane]],
             };
         }
     }

@@ -8,9 +8,9 @@
 //! the processor at hand.
 
 use crate::guide_set::GuideSet;
-use crate::lanes::{Frames, LANES, Number, Row};
+use crate::lanes::{Frames, HALF, LANES, Number, Row, turned};
 use crate::stages::weights::{Axes, Falloff, Share};
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, mask32x16, u32x16};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, SimdSplit, mask32x16, u32x16};
 
 /// Most guides that a hair chooses its own and the one behind them from.
 pub(crate) const MOST: usize = 6;
@@ -28,18 +28,10 @@ pub(crate) struct Choice<'a> {
 /// The shares of hairs side by side.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ShareRows {
-    /// Nearest guides first; those of weight 0 are no shares.
-    slots: [Slot; MOST],
+    /// Of each hair, nearest guides first; those of weight 0 are none.
+    shares: [[Share; LANES]; MOST],
     /// Means of the guides' lengths.
     lengths: Row,
-}
-
-#[derive(Clone, Copy, Debug, Default)]
-struct Slot {
-    guides: [u32; LANES],
-    weights: Row,
-    cosines: Row,
-    sines: Row,
 }
 
 impl ShareRows {
@@ -48,14 +40,9 @@ impl ShareRows {
     #[inline(always)]
     pub(crate) fn append(&self, lane: usize, nearest: usize, shares: &mut Vec<Share>) -> f32 {
         shares.reserve(MOST);
-        for slot in &self.slots[..nearest] {
-            if slot.weights[lane] > 0.0 {
-                shares.push(Share {
-                    guide: slot.guides[lane],
-                    weight: slot.weights[lane],
-                    cosine: slot.cosines[lane],
-                    sine: slot.sines[lane],
-                });
+        for row in &self.shares[..nearest] {
+            if row[lane].weight > 0.0 {
+                shares.push(row[lane]);
             }
         }
         self.lengths[lane]
@@ -121,14 +108,27 @@ impl ShareRows {
             }
         }
         let mut mean = zero;
-        for (k, slot) in self.slots[..K].iter_mut().enumerate() {
-            near.guides[k].store_array(&mut slot.guides);
-            weights[k].store_array(&mut slot.weights);
-            (weights[k] * turns.cosines[k]).store_array(&mut slot.cosines);
-            (weights[k] * turns.sines[k]).store_array(&mut slot.sines);
-            mean += weights[k] * turns.lengths[k];
+        for (k, row) in self.shares[..K].iter_mut().enumerate() {
+            let (weight, guide) = (weights[k], Number::from_bits(near.guides[k]));
+            let (cosine, sine) = (weight * turns.cosines[k], weight * turns.sines[k]);
+            store([guide, weight, cosine, sine], row);
+            mean += weight * turns.lengths[k];
         }
         mean.store_array(&mut self.lengths);
+    }
+}
+
+/// Writes the shares of which all guides, as bits, weights, cosines and sines are given.
+#[inline(always)]
+fn store<S: Simd>(parts: [Number<S>; 4], shares: &mut [Share; LANES]) {
+    let [a, b, c, d] = parts;
+    let ((a, e), (b, f), (c, g), (d, h)) = (a.split(), b.split(), c.split(), d.split());
+    let (low, high) = shares.split_at_mut(HALF);
+    for (share, parts) in low.iter_mut().zip(turned([a, b, c, d])) {
+        *share = bytemuck::cast(parts.to_array());
+    }
+    for (share, parts) in high.iter_mut().zip(turned([e, f, g, h])) {
+        *share = bytemuck::cast(parts.to_array());
     }
 }
 

@@ -1,7 +1,7 @@
 //! Surfaces that grow hair: triangle meshes at rest and posed, image maps, places
 //! on a surface, and roots sampled by density.
 
-mod along;
+mod along_surface;
 mod blue_noise;
 mod bulk;
 mod closest;
@@ -33,7 +33,7 @@ mod triangulate;
 mod voxels;
 mod window;
 
-pub use along::AlongSurface;
+pub use along_surface::AlongSurface;
 pub use blue_noise::BlueNoise;
 pub use closest::ClosestPoint;
 pub use density::Density;

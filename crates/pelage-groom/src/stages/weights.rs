@@ -13,6 +13,7 @@
 //! guides carried?").
 
 use crate::locator::Near;
+use bytemuck::{Pod, Zeroable};
 use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f32x4};
 use pelage_curves::Vec3;
 use pelage_surface::RootFrame;
@@ -22,7 +23,8 @@ const ENLARGED: f32 = 1.1;
 
 /// A guide's part in a hair: the guide, and its weight times cosine and sine of the
 /// turn from the guide's frame into the hair's.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
 pub struct Share {
     /// Index of the guide in its group.
     pub guide: u32,
