@@ -21,6 +21,7 @@
 mod cluster;
 mod ground;
 pub(crate) mod hierarchy;
+mod leaf;
 mod pool;
 mod stage;
 #[cfg(test)]
@@ -158,7 +159,7 @@ fn roots(ground: &Ground, count: u64, seed: u64) -> Vec<Root> {
         let floor = reach * FLOOR;
         let pool = Pool::new(ground, goal, seed);
         let found = pool.clusters(&along, reach as f32, floor as f32);
-        let mut stage = Stage::new(ground, &found, reach as f32, floor as f32);
+        let mut stage = Stage::new(ground, &found, reach as f32);
         while (hairs.len() as u64) < goal.min(count) && reach >= floor {
             let fractions = pool.fractions(&stage.level(reach as f32));
             let rows = ground.rows(&fractions, |places, lane, _| Root::at(places, lane));

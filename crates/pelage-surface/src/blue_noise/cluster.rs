@@ -1,42 +1,82 @@
 //! Candidates that lie together, so that a root pushes many of them at once.
 
-use super::ground::{Ground, LANES, Places, Site};
+use super::ground::{Ground, LANES, Places, ROW, Site};
 use super::hierarchy::Bounds;
+use super::leaf::{LEAF, Leaf};
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16, mask32x16};
 use pelage_curves::Vec3;
-
-/// How far the candidates of a cluster are from the nearest root: squared, scaled.
-#[derive(Clone, Copy)]
-pub(crate) struct Near {
-    /// [`TAKEN`] for roots and for lanes without a candidate.
-    pub distance: [f32; LANES],
-    /// The largest, when they were last looked at.
-    pub most: f32,
-}
-
-impl Near {
-    /// All candidates are as far as `distance`.
-    pub(crate) const fn all(distance: f32) -> Self {
-        Self {
-            distance: [distance; LANES],
-            most: f32::INFINITY,
-        }
-    }
-
-    /// The lane farthest from all roots; notes its distance.
-    #[inline(always)]
-    pub(crate) fn farthest(&mut self) -> usize {
-        self.most = most(&self.distance);
-        let most = self.most;
-        // Sixteen at once, then one of sixteen.
-        let holds = |row: &[f32]| row.iter().fold(false, |any, &d| any | (d == most));
-        let row = self.distance.chunks_exact(16).position(holds).unwrap_or(0);
-        let place = self.distance[16 * row..].iter().position(|&d| d == most);
-        16 * row + place.unwrap_or(0)
-    }
-}
 
 /// Nearer than any reach.
 pub(crate) const TAKEN: f32 = -1.0;
+
+/// How far the candidates of a cluster are from the nearest root, squared and scaled:
+/// [`TAKEN`] for roots and for lanes without a candidate.
+pub(crate) type Near = [f32; LANES];
+
+/// The same in registers.
+#[derive(Clone, Copy)]
+pub(crate) struct Distances<S: Simd> {
+    simd: S,
+    rows: [f32x16<S>; LANES / ROW],
+}
+
+impl<S: Simd> Distances<S> {
+    /// All candidates are as far as `distance`.
+    #[inline(always)]
+    pub(crate) fn all(simd: S, distance: f32) -> Self {
+        let rows = [f32x16::splat(simd, distance); LANES / ROW];
+        Self { simd, rows }
+    }
+
+    #[inline(always)]
+    pub(crate) fn load(simd: S, near: &Near) -> Self {
+        let rows = rows(simd, near);
+        Self { simd, rows }
+    }
+
+    #[inline(always)]
+    pub(crate) fn store(&self, near: &mut Near) {
+        for (to, row) in near.as_chunks_mut().0.iter_mut().zip(self.rows) {
+            row.store_array(to);
+        }
+    }
+
+    /// The largest.
+    #[inline(always)]
+    pub(crate) fn most(&self) -> f32 {
+        let [a, b, c, d] = self.rows;
+        a.max(b).max(c.max(d)).reduce_max()
+    }
+
+    /// The first lane that has `distance`.
+    #[inline(always)]
+    pub(crate) fn lane_of(&self, distance: f32) -> usize {
+        let mut lanes = 0;
+        for (k, row) in self.rows.iter().enumerate() {
+            lanes |= row.simd_eq(distance).to_bitmask() << (ROW * k);
+        }
+        lanes.trailing_zeros() as usize % LANES
+    }
+
+    /// Makes `lane` [`TAKEN`].
+    #[inline(always)]
+    pub(crate) fn take(&mut self, lane: usize) {
+        for (k, row) in self.rows.iter_mut().enumerate() {
+            let taken = mask32x16::from_bitmask(self.simd, (1 << lane) >> (ROW * k) & 0xffff);
+            *row = taken.select(f32x16::splat(self.simd, TAKEN), *row);
+        }
+    }
+}
+
+/// The lanes of a cluster, a row each.
+#[inline(always)]
+fn rows<S: Simd>(simd: S, values: &[f32; LANES]) -> [f32x16<S>; LANES / ROW] {
+    let mut rows = [f32x16::splat(simd, 0.0); LANES / ROW];
+    for (row, values) in rows.iter_mut().zip(values.as_chunks().0) {
+        *row = f32x16::load_array_ref(simd, values);
+    }
+    rows
+}
 
 /// Up to [`LANES`] candidates that follow each other along the curve.
 #[derive(Clone)]
@@ -129,33 +169,63 @@ impl Cluster {
         self.facing = Facing::of(&self.triangle, ground.normals());
     }
 
+    /// The candidates learn of those of `roots` that may be within `reach`.
+    #[inline(always)]
+    pub(crate) fn learn<S: Simd>(
+        &self,
+        near: &mut Distances<S>,
+        roots: &Leaf,
+        reach: f32,
+        normals: &[Vec3],
+    ) {
+        let mut close = roots.near(near.simd, &self.bounds, reach);
+        while close != 0 {
+            let site = roots.site(close.trailing_zeros() as usize % LEAF);
+            self.push(near, &site, normals);
+            close &= close - 1;
+        }
+    }
+
     /// The candidates learn of a root at `site`.
     #[inline(always)]
-    pub(crate) fn push(&self, near: &mut Near, site: &Site, normals: &[Vec3]) {
-        let seen = self.facing.sees(site.normal);
-        if seen == Some(false) {
-            return;
-        }
-        let mut distance = self.distances(site);
-        if seen.is_none() {
-            for (distance, &triangle) in distance.iter_mut().zip(&self.triangle) {
-                if normals[triangle as usize].dot(site.normal) <= 0.0 {
-                    *distance = f32::INFINITY;
+    pub(crate) fn push<S: Simd>(&self, near: &mut Distances<S>, site: &Site, normals: &[Vec3]) {
+        match self.facing.sees(site.normal) {
+            Some(true) => {
+                let distances = self.distances(near.simd, site);
+                for (near, distance) in near.rows.iter_mut().zip(distances) {
+                    *near = distance.min(*near);
                 }
             }
+            Some(false) => {}
+            None => self.push_seen(near, site, normals),
         }
-        for (near, distance) in near.distance.iter_mut().zip(distance) {
-            *near = if distance < *near { distance } else { *near };
+    }
+
+    /// The same where only some candidates may see the root.
+    #[inline(always)]
+    fn push_seen<S: Simd>(&self, near: &mut Distances<S>, site: &Site, normals: &[Vec3]) {
+        let (simd, triangles) = (near.simd, self.triangle.as_chunks::<ROW>().0);
+        let distances = self.distances(simd, site);
+        for (row, (near, distance)) in near.rows.iter_mut().zip(distances).enumerate() {
+            let sees = |k: usize| normals[triangles[row][k] as usize].dot(site.normal) > 0.0;
+            let seen = (0..ROW).fold(0, |seen, k| seen | (sees(k) as u64) << k);
+            let seen = mask32x16::from_bitmask(simd, seen);
+            *near = seen.select(distance.min(*near), *near);
         }
     }
 
     #[inline(always)]
-    fn distances(&self, site: &Site) -> [f32; LANES] {
-        let mut distances = [0.0; LANES];
+    fn distances<S: Simd>(&self, simd: S, site: &Site) -> [f32x16<S>; LANES / ROW] {
         let [px, py, pz] = site.position.to_array();
+        let (xs, ys, zs) = (
+            rows(simd, &self.x),
+            rows(simd, &self.y),
+            rows(simd, &self.z),
+        );
+        let mut distances = rows(simd, &self.closeness);
         for (k, distance) in distances.iter_mut().enumerate() {
-            let (x, y, z) = (self.x[k] - px, self.y[k] - py, self.z[k] - pz);
-            *distance = (x * x + y * y + z * z) * (self.closeness[k] * site.closeness);
+            let (x, y, z) = (xs[k] - px, ys[k] - py, zs[k] - pz);
+            *distance = (x * x + y * y + z * z) * (*distance * site.closeness);
         }
         distances
     }

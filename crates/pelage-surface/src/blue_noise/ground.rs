@@ -36,7 +36,7 @@ pub(crate) const LANES: usize = 64;
 
 /// Lanes computed at once. Pieces end anywhere, so what is computed of one runs over
 /// into the lanes of the next, which come later.
-const ROW: usize = 16;
+pub(crate) const ROW: usize = 16;
 
 /// Where [`LANES`] fractions lead.
 #[derive(Clone)]

@@ -1,11 +1,12 @@
 //! The candidates of a stage: one at random in each of many equal parts of the mass.
 
-use super::cluster::{Cluster, Near, TAKEN};
+use super::cluster::{Cluster, Distances, Near, TAKEN};
 use super::ground::{Fractions, Ground, LANES, Milestone, Places, Site};
 use super::hierarchy::{Bounds, Hierarchy};
+use super::leaf::{LEAF, Leaf};
 use crate::hash;
 use crate::sequence::mix;
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, Simd, dispatch};
 use pelage_curves::Vec3;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -21,9 +22,6 @@ const SMOOTHED: u64 = 8;
 
 /// Candidates drawn by one task, as many as a chunk of clusters comes from.
 const CHUNK: u64 = 64 * LANES as u64;
-
-/// Roots in a leaf of their hierarchy: as many as processors compare at once.
-const LEAF: usize = 16;
 
 /// Clusters drawn together, to look for the roots around them once.
 const ROWS: usize = 4;
@@ -130,8 +128,7 @@ impl<'a> Pool<'a> {
                 let numbers = chunk * CHUNK..((chunk + 1) * CHUNK).min(self.count);
                 let mut found = Found::default();
                 dispatch!(Level::new(), simd => {
-                    let _ = simd;
-                    self.chunk(numbers, &taken, reach, floor, &mut found)
+                    self.chunk(simd, numbers, &taken, reach, floor, &mut found)
                 });
                 found
             })
@@ -139,11 +136,20 @@ impl<'a> Pool<'a> {
     }
 
     #[inline(always)]
-    fn chunk(&self, numbers: Range<u64>, taken: &Taken, reach: f32, floor: f32, found: &mut Found) {
+    fn chunk<S: Simd>(
+        &self,
+        simd: S,
+        numbers: Range<u64>,
+        taken: &Taken,
+        reach: f32,
+        floor: f32,
+        found: &mut Found,
+    ) {
         let chunk = numbers.start;
         let mut kept = Keeper::new(chunk);
         let mut leaves = Vec::new();
         let mut places = Places::new();
+        let mut distances = [TAKEN; LANES];
         for first in numbers.step_by(BLOCK as usize) {
             let mut drawn = [const { Cluster::new(0) }; ROWS];
             let mut bounds = Bounds::EMPTY;
@@ -153,8 +159,12 @@ impl<'a> Pool<'a> {
             }
             taken.leaves(&bounds, reach, &mut leaves);
             for drawn in &drawn {
-                let near = taken.distances(&leaves, drawn, reach, self.ground);
-                kept.keep(drawn, &near, floor, self.ground, found);
+                let mut near = Distances::all(simd, f32::INFINITY);
+                for leaf in taken.around(&leaves, &drawn.bounds, reach) {
+                    drawn.learn(&mut near, leaf, reach, self.ground.normals());
+                }
+                near.store(&mut distances);
+                kept.keep(drawn, &distances, floor, self.ground, found);
             }
         }
         kept.flush(self.ground, found);
@@ -172,7 +182,7 @@ impl Keeper {
     fn new(first: u64) -> Self {
         Self {
             cluster: Cluster::new(first),
-            near: Near::all(TAKEN),
+            near: [TAKEN; LANES],
             len: 0,
         }
     }
@@ -190,11 +200,11 @@ impl Keeper {
         let (mut lanes, mut count) = ([0u8; LANES], 0);
         for lane in 0..LANES {
             lanes[count] = lane as u8;
-            count += (near.distance[lane] >= floor) as usize;
+            count += (near[lane] >= floor) as usize;
         }
         for &lane in &lanes[..count] {
             self.cluster.copy(self.len, drawn, lane as usize);
-            self.near.distance[self.len] = near.distance[lane as usize];
+            self.near[self.len] = near[lane as usize];
             self.len += 1;
             if self.len == LANES {
                 self.flush(ground, found);
@@ -208,7 +218,7 @@ impl Keeper {
             self.cluster.close(self.len, ground);
             found.clusters.push(self.cluster.clone());
             found.near.push(self.near);
-            (self.near, self.len) = (Near::all(TAKEN), 0);
+            (self.near, self.len) = ([TAKEN; LANES], 0);
         }
     }
 }
@@ -221,11 +231,10 @@ struct Taken {
 
 impl Taken {
     fn new(sites: Vec<Site>) -> Self {
-        let leaves: Vec<Leaf> = sites.chunks(LEAF).map(Leaf::new).collect();
-        let bounds = |leaf: &Leaf| Bounds::around(leaf.sites().iter().map(Site::bounds));
+        let bounds = |sites: &[Site]| Bounds::around(sites.iter().map(Site::bounds));
         Self {
-            tree: Hierarchy::new(leaves.iter().map(bounds)),
-            leaves,
+            tree: Hierarchy::new(sites.chunks(LEAF).map(bounds)),
+            leaves: sites.chunks(LEAF).map(Leaf::new).collect(),
         }
     }
 
@@ -235,68 +244,10 @@ impl Taken {
         self.tree.near(bounds, reach, |leaf| leaves.push(leaf));
     }
 
+    /// Those of `leaves` that may be within `reach` of `bounds`.
     #[inline(always)]
-    fn distances(&self, leaves: &[usize], cluster: &Cluster, reach: f32, ground: &Ground) -> Near {
-        let mut near = Near::all(f32::INFINITY);
-        for &leaf in leaves {
-            if self.tree.leaf(leaf).gap(&cluster.bounds) >= reach {
-                continue;
-            }
-            let leaf = &self.leaves[leaf];
-            let mut sites = leaf.near(&cluster.bounds, reach);
-            while sites != 0 {
-                let site = &leaf.sites[sites.trailing_zeros() as usize];
-                cluster.push(&mut near, site, ground.normals());
-                sites &= sites - 1;
-            }
-        }
-        near
-    }
-}
-
-/// Roots that follow each other along the curve, in a form in which all are compared with
-/// a box at once.
-struct Leaf {
-    sites: [Site; LEAF],
-    len: usize,
-    position: [[f32; LEAF]; 3],
-    closeness: [f32; LEAF],
-}
-
-impl Leaf {
-    /// Of 1 to [`LEAF`] roots.
-    fn new(sites: &[Site]) -> Self {
-        let site = |k: usize| sites[k.min(sites.len() - 1)];
-        Self {
-            sites: std::array::from_fn(site),
-            len: sites.len(),
-            position: [0, 1, 2].map(|axis| std::array::from_fn(|k| site(k).position[axis])),
-            closeness: std::array::from_fn(|k| site(k).closeness),
-        }
-    }
-
-    fn sites(&self) -> &[Site] {
-        &self.sites[..self.len]
-    }
-
-    /// Which roots have a [gap](Bounds::gap) to `bounds` less than `reach`: a bit each.
-    #[inline(always)]
-    fn near(&self, bounds: &Bounds, reach: f32) -> u32 {
-        let mut squares = [0.0; LEAF];
-        for (axis, along) in self.position.iter().enumerate() {
-            let (low, high) = (bounds.low[axis], bounds.high[axis]);
-            for (square, x) in squares.iter_mut().zip(along) {
-                let (above, below) = (x - high, low - x);
-                let apart = if above > below { above } else { below };
-                let apart = if apart > 0.0 { apart } else { 0.0 };
-                *square += apart * apart;
-            }
-        }
-        let mut near = [0; LEAF];
-        for k in 0..LEAF {
-            let gap = squares[k] * (self.closeness[k] * bounds.least);
-            near[k] = ((gap < reach) as u32) << k;
-        }
-        near.into_iter().fold(0, |a, b| a | b) & ((1 << self.len) - 1)
+    fn around(&self, leaves: &[usize], bounds: &Bounds, reach: f32) -> impl Iterator<Item = &Leaf> {
+        let near = move |leaf: &&usize| self.tree.leaf(**leaf).gap(bounds) < reach;
+        leaves.iter().filter(near).map(|&leaf| &self.leaves[leaf])
     }
 }

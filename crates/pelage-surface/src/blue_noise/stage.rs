@@ -7,11 +7,12 @@
 //! first learns what the neighbours took when they were visited last, then takes what it
 //! can, the farthest first. So what comes out is the same for any number of threads.
 
-use super::cluster::{Cluster, Near, TAKEN};
+use super::cluster::{Cluster, Distances, Near};
 use super::ground::{Ground, Site};
 use super::hierarchy::Hierarchy;
+use super::leaf::Leaf;
 use super::pool::Found;
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -28,8 +29,6 @@ pub(crate) struct Stage<'a> {
     colours: Vec<Range<usize>>,
     /// Of the clusters of each tile in `order`.
     near: Vec<Vec<Near>>,
-    /// Squared reach below which the stage will not go.
-    floor: f32,
     roots: Vec<Root>,
     /// Which of the roots each cluster took when it was visited last.
     fresh: Vec<Range<u32>>,
@@ -43,9 +42,8 @@ struct Root {
 }
 
 impl<'a> Stage<'a> {
-    /// Candidates that may come within `reach` (squared) of each other, for levels down
-    /// to `floor`.
-    pub(crate) fn new(ground: &'a Ground<'a>, found: &'a [Found], reach: f32, floor: f32) -> Self {
+    /// Candidates that may come within `reach` (squared) of each other.
+    pub(crate) fn new(ground: &'a Ground<'a>, found: &'a [Found], reach: f32) -> Self {
         let clusters: Vec<&Cluster> = found.iter().flat_map(|f| &f.clusters).collect();
         let near: Vec<&Near> = found.iter().flat_map(|f| &f.near).collect();
         let neighbours = Neighbours::new(&clusters, reach);
@@ -62,7 +60,6 @@ impl<'a> Stage<'a> {
             near: order.par_iter().map(tile).collect(),
             order,
             colours,
-            floor,
             roots: Vec::new(),
             fresh: vec![0..0; clusters.len()],
             clusters,
@@ -112,28 +109,28 @@ impl<'a> Stage<'a> {
             roots: Vec::new(),
         };
         dispatch!(Level::new(), simd => {
-            let _ = simd;
             for (near, cluster) in near.iter_mut().zip(clusters) {
-                self.visit(cluster, near, reach, &mut tile);
+                self.visit(simd, cluster, near, reach, &mut tile);
             }
         });
         tile
     }
 
     #[inline(always)]
-    fn visit(&self, index: usize, near: &mut Near, reach: f32, tile: &mut Tile) {
+    fn visit<S: Simd>(&self, simd: S, index: usize, near: &mut Near, reach: f32, tile: &mut Tile) {
         let before = tile.end();
-        if near.most >= self.floor {
-            let cluster = self.clusters[index];
-            self.learn(index, cluster, near, reach, tile);
-            self.take(cluster, near, reach, tile);
-        }
+        let mut distances = Distances::load(simd, near);
+        self.learn(index, &mut distances, reach, tile);
+        self.take(self.clusters[index], &mut distances, reach, tile);
+        distances.store(near);
         tile.fresh[index - tile.start] = before..tile.end();
     }
 
-    /// Pushes what the neighbours took.
+    /// Learns what the neighbours took.
     #[inline(always)]
-    fn learn(&self, index: usize, cluster: &Cluster, near: &mut Near, reach: f32, tile: &Tile) {
+    fn learn<S: Simd>(&self, index: usize, near: &mut Distances<S>, reach: f32, tile: &Tile) {
+        let (cluster, normals) = (self.clusters[index], self.ground.normals());
+        let mut leaf = Leaf::EMPTY;
         for &neighbour in self.neighbours.of(index) {
             let inside = (neighbour as usize).wrapping_sub(tile.start);
             let roots = match tile.fresh.get(inside) {
@@ -142,27 +139,37 @@ impl<'a> Stage<'a> {
                 None => self.roots_of(&self.fresh[neighbour as usize]),
             };
             for root in roots {
-                if root.site.bounds().gap(&cluster.bounds) < reach {
-                    cluster.push(near, &root.site, self.ground.normals());
+                leaf.add(&root.site);
+                if leaf.is_full() {
+                    cluster.learn(near, &leaf, reach, normals);
+                    leaf.clear();
                 }
             }
         }
+        cluster.learn(near, &leaf, reach, normals);
     }
 
-    /// Takes what is farther than `reach`.
+    /// Takes what is farther than `reach`, the farthest first.
     #[inline(always)]
-    fn take(&self, cluster: &Cluster, near: &mut Near, reach: f32, tile: &mut Tile) {
+    fn take<S: Simd>(
+        &self,
+        cluster: &Cluster,
+        near: &mut Distances<S>,
+        reach: f32,
+        tile: &mut Tile,
+    ) {
         let normals = self.ground.normals();
         loop {
-            let lane = near.farthest();
-            if near.most < reach {
+            let most = near.most();
+            if most < reach {
                 return;
             }
+            let lane = near.lane_of(most);
             let site = cluster.site(lane, normals);
             let number = cluster.number(lane);
             tile.roots.push(Root { site, number });
             cluster.push(near, &site, normals);
-            near.distance[lane] = TAKEN;
+            near.take(lane);
         }
     }
 
