@@ -29,6 +29,7 @@ mod tests;
 
 use crate::{Mesh, RootSampler, SurfacePoint};
 use ground::{Ground, Places};
+use pelage_curves::Vec3;
 use pool::Pool;
 use stage::Stage;
 use std::ops::Range;
@@ -148,9 +149,30 @@ impl Root {
     }
 }
 
+/// A root on the curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed {
+    /// Of the mass.
+    fraction: u64,
+    root: Root,
+    /// On the surface of unit area.
+    position: Vec3,
+}
+
+impl Placed {
+    #[inline(always)]
+    fn at(places: &Places, lane: usize, fraction: u64) -> Self {
+        Self {
+            fraction,
+            root: Root::at(places, lane),
+            position: Vec3::new(places.x[lane], places.y[lane], places.z[lane]),
+        }
+    }
+}
+
 fn roots(ground: &Ground, count: u64, seed: u64) -> Vec<Root> {
     let mut hairs = Vec::new();
-    // The same roots as fractions of the mass, ascending.
+    // The same roots along the curve.
     let mut along = Vec::new();
     let mut reach = ground.extent();
     while (hairs.len() as u64) < count {
@@ -160,13 +182,21 @@ fn roots(ground: &Ground, count: u64, seed: u64) -> Vec<Root> {
         let pool = Pool::new(ground, goal, seed);
         let found = pool.clusters(&along, reach as f32, floor as f32);
         let mut stage = Stage::new(ground, &found, reach as f32);
-        while (hairs.len() as u64) < goal.min(count) && reach >= floor {
-            let fractions = pool.fractions(&stage.level(reach as f32));
-            let rows = ground.rows(&fractions, |places, lane, _| Root::at(places, lane));
-            spread(&rows.concat(), &mut hairs);
+        let (mut levels, mut reached) = (0, hairs.len() as u64);
+        while reached < goal.min(count) && reach >= floor {
+            reached += stage.level(reach as f32, (reach * STEP) as f32) as u64;
             reach *= STEP;
+            levels += 1;
         }
-        along = merged(&along, &pool.fractions(&stage.taken()));
+        let taken = stage.taken();
+        let fractions: Vec<u64> = taken.iter().map(|t| pool.fraction(t.0)).collect();
+        let placed = ground.rows(&fractions, Placed::at).concat();
+        let mut by_level = vec![Vec::new(); levels];
+        for ((_, level), placed) in taken.iter().zip(&placed) {
+            by_level[*level].push(placed.root);
+        }
+        by_level.iter().for_each(|roots| spread(roots, &mut hairs));
+        along = merged(&along, &placed);
     }
     hairs.truncate(count as usize);
     hairs
@@ -181,12 +211,12 @@ fn spread(roots: &[Root], hairs: &mut Vec<Root>) {
     hairs.extend(order.filter_map(|i| roots.get(i as usize)));
 }
 
-/// Two ascending lists as one.
-fn merged(a: &[u64], b: &[u64]) -> Vec<u64> {
+/// Two lists along the curve as one.
+fn merged(a: &[Placed], b: &[Placed]) -> Vec<Placed> {
     let mut all = Vec::with_capacity(a.len() + b.len());
     let mut a = a.iter().copied().peekable();
     for &y in b {
-        while let Some(x) = a.next_if(|x| *x <= y) {
+        while let Some(x) = a.next_if(|x| x.fraction <= y.fraction) {
             all.push(x);
         }
         all.push(y);

@@ -11,7 +11,16 @@ pub(crate) const TAKEN: f32 = -1.0;
 
 /// How far the candidates of a cluster are from the nearest root, squared and scaled:
 /// [`TAKEN`] for roots and for lanes without a candidate.
-pub(crate) type Near = [f32; LANES];
+///
+/// Aligned to cache lines, as all that is read in whole registers here: what lies across two
+/// lines takes twice as long, and can not be read right after it was written.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+pub(crate) struct Near(pub [f32; LANES]);
+
+impl Near {
+    pub(crate) const TAKEN: Near = Near([TAKEN; LANES]);
+}
 
 /// The same in registers.
 #[derive(Clone, Copy)]
@@ -30,13 +39,13 @@ impl<S: Simd> Distances<S> {
 
     #[inline(always)]
     pub(crate) fn load(simd: S, near: &Near) -> Self {
-        let rows = rows(simd, near);
+        let rows = rows(simd, &near.0);
         Self { simd, rows }
     }
 
     #[inline(always)]
     pub(crate) fn store(&self, near: &mut Near) {
-        for (to, row) in near.as_chunks_mut().0.iter_mut().zip(self.rows) {
+        for (to, row) in near.0.as_chunks_mut().0.iter_mut().zip(&self.rows) {
             row.store_array(to);
         }
     }
@@ -80,6 +89,7 @@ fn rows<S: Simd>(simd: S, values: &[f32; LANES]) -> [f32x16<S>; LANES / ROW] {
 
 /// Up to [`LANES`] candidates that follow each other along the curve.
 #[derive(Clone)]
+#[repr(align(64))]
 pub(crate) struct Cluster {
     x: [f32; LANES],
     y: [f32; LANES],
@@ -192,7 +202,7 @@ impl Cluster {
         match self.facing.sees(site.normal) {
             Some(true) => {
                 let distances = self.distances(near.simd, site);
-                for (near, distance) in near.rows.iter_mut().zip(distances) {
+                for (near, distance) in near.rows.iter_mut().zip(&distances) {
                     *near = distance.min(*near);
                 }
             }
@@ -206,7 +216,7 @@ impl Cluster {
     fn push_seen<S: Simd>(&self, near: &mut Distances<S>, site: &Site, normals: &[Vec3]) {
         let (simd, triangles) = (near.simd, self.triangle.as_chunks::<ROW>().0);
         let distances = self.distances(simd, site);
-        for (row, (near, distance)) in near.rows.iter_mut().zip(distances).enumerate() {
+        for (row, (near, distance)) in near.rows.iter_mut().zip(&distances).enumerate() {
             let sees = |k: usize| normals[triangles[row][k] as usize].dot(site.normal) > 0.0;
             let seen = (0..ROW).fold(0, |seen, k| seen | (sees(k) as u64) << k);
             let seen = mask32x16::from_bitmask(simd, seen);

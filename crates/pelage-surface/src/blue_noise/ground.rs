@@ -121,6 +121,11 @@ impl<'a> Ground<'a> {
         &self.normals
     }
 
+    /// By what to multiply distances on `piece`.
+    pub(crate) fn closeness(&self, piece: u32) -> f32 {
+        self.closeness[piece as usize]
+    }
+
     /// The longest distance there is, squared.
     pub(crate) fn extent(&self) -> f64 {
         let (low, high) = self.mesh.bounds();

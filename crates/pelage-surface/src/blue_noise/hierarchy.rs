@@ -3,6 +3,8 @@
 //! The things come in an order that keeps neighbours near, so a complete binary tree
 //! over the order is as good as one that was built, and needs no links.
 
+use super::ground::ROW;
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
 use pelage_curves::Vec3;
 
 /// A box, and the least closeness of the places in it.
@@ -40,6 +42,78 @@ impl Bounds {
     pub(crate) fn gap(&self, other: &Bounds) -> f32 {
         let apart = (self.low - other.high).max(other.low - self.high);
         apart.max(Vec3::ZERO).length_squared() * (self.least * other.least)
+    }
+}
+
+/// The [gaps](Bounds::gap) between `bounds` and a row of boxes from `low` to `high` that
+/// have `least`.
+#[inline(always)]
+pub(crate) fn gaps<S: Simd>(
+    simd: S,
+    [low, high]: [&[[f32; ROW]; 3]; 2],
+    least: &[f32; ROW],
+    bounds: &Bounds,
+) -> f32x16<S> {
+    let nothing = f32x16::splat(simd, 0.0);
+    let mut squares = nothing;
+    for axis in 0..3 {
+        let below = f32x16::load_array_ref(simd, &low[axis]) - bounds.high[axis];
+        let above = bounds.low[axis] - f32x16::load_array_ref(simd, &high[axis]);
+        let apart = below.max(above).max(nothing);
+        squares += apart * apart;
+    }
+    squares * (f32x16::load_array_ref(simd, least) * bounds.least)
+}
+
+/// Up to [`Boxes::MOST`] boxes, in a form in which many are compared with one at once.
+pub(crate) struct Boxes([Row; Boxes::MOST / ROW]);
+
+/// A row of boxes; where there is none, [`Bounds::EMPTY`].
+#[repr(align(64))]
+struct Row {
+    low: [[f32; ROW]; 3],
+    high: [[f32; ROW]; 3],
+    least: [f32; ROW],
+}
+
+impl Boxes {
+    /// As many as a word has bits.
+    pub(crate) const MOST: usize = 64;
+
+    pub(crate) fn new(boxes: impl Iterator<Item = Bounds>) -> Self {
+        let empty = || Row {
+            low: [[f32::INFINITY; ROW]; 3],
+            high: [[f32::NEG_INFINITY; ROW]; 3],
+            least: [f32::INFINITY; ROW],
+        };
+        let mut rows: [Row; Self::MOST / ROW] = std::array::from_fn(|_| empty());
+        for (i, bounds) in boxes.enumerate() {
+            let (row, k) = (&mut rows[i / ROW], i % ROW);
+            for axis in 0..3 {
+                row.low[axis][k] = bounds.low[axis];
+                row.high[axis][k] = bounds.high[axis];
+            }
+            row.least[k] = bounds.least;
+        }
+        Self(rows)
+    }
+
+    /// Which have a [gap](Bounds::gap) to `bounds` less than each of `reaches`: a bit each.
+    #[inline(always)]
+    pub(crate) fn near<S: Simd, const N: usize>(
+        &self,
+        simd: S,
+        bounds: &Bounds,
+        reaches: [f32; N],
+    ) -> [u64; N] {
+        let mut near = [0; N];
+        for (k, row) in self.0.iter().enumerate() {
+            let gaps = gaps(simd, [&row.low, &row.high], &row.least, bounds);
+            for (near, reach) in near.iter_mut().zip(reaches) {
+                *near |= gaps.simd_lt(reach).to_bitmask() << (ROW * k);
+            }
+        }
+        near
     }
 }
 

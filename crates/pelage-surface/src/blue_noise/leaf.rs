@@ -1,20 +1,21 @@
 //! Roots that lie together, in a form in which all are compared with a box at once.
 
-use super::ground::Site;
-use super::hierarchy::Bounds;
-use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
+use super::ground::{ROW, Site};
+use super::hierarchy::{Bounds, gaps};
+use fearless_simd::{Simd, SimdBase, SimdMask};
 use pelage_curves::Vec3;
 
 /// Roots in a leaf: as many as processors compare at once.
-pub(crate) const LEAF: usize = 16;
+pub(crate) const LEAF: usize = ROW;
 
 /// Up to [`LEAF`] roots.
 #[derive(Clone)]
+#[repr(align(64))]
 pub(crate) struct Leaf {
-    len: usize,
     position: [[f32; LEAF]; 3],
     closeness: [f32; LEAF],
     normal: [[f32; LEAF]; 3],
+    len: usize,
 }
 
 impl Leaf {
@@ -25,12 +26,11 @@ impl Leaf {
         normal: [[0.0; LEAF]; 3],
     };
 
-    /// Of [`LEAF`] roots at most.
-    pub(crate) fn new(sites: &[Site]) -> Self {
+    /// Of one root.
+    #[inline(always)]
+    pub(crate) fn of(site: &Site) -> Self {
         let mut leaf = Self::EMPTY;
-        for site in sites {
-            leaf.add(site);
-        }
+        leaf.add(site);
         leaf
     }
 
@@ -46,14 +46,17 @@ impl Leaf {
         self.len = k + 1;
     }
 
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
     #[inline(always)]
     pub(crate) fn is_full(&self) -> bool {
         self.len == LEAF
     }
 
-    #[inline(always)]
-    pub(crate) fn clear(&mut self) {
-        self.len = 0;
+    pub(crate) fn bounds(&self) -> Bounds {
+        Bounds::around((0..self.len).map(|k| self.site(k).bounds()))
     }
 
     #[inline(always)]
@@ -69,16 +72,8 @@ impl Leaf {
     /// Which roots have a [gap](Bounds::gap) to `bounds` less than `reach`: a bit each.
     #[inline(always)]
     pub(crate) fn near<S: Simd>(&self, simd: S, bounds: &Bounds, reach: f32) -> u64 {
-        let nothing = f32x16::splat(simd, 0.0);
-        let mut squares = nothing;
-        for (axis, along) in self.position.iter().enumerate() {
-            let along = f32x16::load_array_ref(simd, along);
-            let (low, high) = (bounds.low[axis], bounds.high[axis]);
-            let apart = (along - high).max(low - along).max(nothing);
-            squares += apart * apart;
-        }
-        let closeness = f32x16::load_array_ref(simd, &self.closeness) * bounds.least;
-        let near = (squares * closeness).simd_lt(reach);
+        let positions = [&self.position, &self.position];
+        let near = gaps(simd, positions, &self.closeness, bounds).simd_lt(reach);
         near.to_bitmask() & ((1 << self.len) - 1)
     }
 }

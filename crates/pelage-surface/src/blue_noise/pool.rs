@@ -1,13 +1,13 @@
 //! The candidates of a stage: one at random in each of many equal parts of the mass.
 
-use super::cluster::{Cluster, Distances, Near, TAKEN};
+use super::Placed;
+use super::cluster::{Cluster, Distances, Near};
 use super::ground::{Fractions, Ground, LANES, Milestone, Places, Site};
 use super::hierarchy::{Bounds, Hierarchy};
 use super::leaf::{LEAF, Leaf};
 use crate::hash;
 use crate::sequence::mix;
 use fearless_simd::{Level, Simd, dispatch};
-use pelage_curves::Vec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -70,18 +70,10 @@ impl<'a> Pool<'a> {
 
     /// The fraction of the mass that candidate `number` is at.
     #[inline(always)]
-    fn fraction(&self, number: u64) -> u64 {
+    pub(crate) fn fraction(&self, number: u64) -> u64 {
         let at_random = mix(number as u32 ^ mix((number >> 32) as u32 ^ self.key)) as u64;
         let (high, low) = (self.step >> 32, self.step & 0xffff_ffff);
         number * self.step + high * at_random + ((low * at_random) >> 32)
-    }
-
-    /// The fractions of all candidates in `numbers`.
-    pub(crate) fn fractions(&self, numbers: &[u64]) -> Vec<u64> {
-        numbers
-            .iter()
-            .map(|&number| self.fraction(number))
-            .collect()
     }
 
     /// The closeness in a part of the mass where the piece has its `own`.
@@ -105,23 +97,21 @@ impl<'a> Pool<'a> {
         drawn
     }
 
-    /// The roots at the fractions `roots`, ascending.
-    fn sites(&self, roots: &[u64]) -> Vec<Site> {
-        let rows = self.ground.rows(roots, |places, lane, x| {
-            let part = ((x / self.step / SMOOTHED) as usize).min(self.closeness.len() - 1);
-            Site {
-                position: Vec3::new(places.x[lane], places.y[lane], places.z[lane]),
-                closeness: self.smoothed(part, places.closeness[lane]),
-                normal: self.ground.normals()[places.triangle[lane] as usize],
-            }
-        });
-        rows.concat()
+    /// What candidates see of a root.
+    fn site(&self, root: &Placed) -> Site {
+        let part = (root.fraction / (self.step * SMOOTHED)) as usize;
+        let own = self.ground.closeness(root.root.piece);
+        Site {
+            position: root.position,
+            closeness: self.smoothed(part.min(self.closeness.len() - 1), own),
+            normal: self.ground.normals()[root.root.triangle as usize],
+        }
     }
 
     /// Clusters, along the curve, of the candidates that are `floor` (squared) away from
-    /// all `roots`, with their distances from the nearest of those within `reach`.
-    pub(crate) fn clusters(&self, roots: &[u64], reach: f32, floor: f32) -> Vec<Found> {
-        let taken = Taken::new(self.sites(roots));
+    /// all `roots`, which follow the curve, with their distances from the nearest of those within `reach`.
+    pub(crate) fn clusters(&self, roots: &[Placed], reach: f32, floor: f32) -> Vec<Found> {
+        let taken = Taken::new(self, roots);
         (0..self.count.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
@@ -149,7 +139,7 @@ impl<'a> Pool<'a> {
         let mut kept = Keeper::new(chunk);
         let mut leaves = Vec::new();
         let mut places = Places::new();
-        let mut distances = [TAKEN; LANES];
+        let mut distances = Near::TAKEN;
         for first in numbers.step_by(BLOCK as usize) {
             let mut drawn = [const { Cluster::new(0) }; ROWS];
             let mut bounds = Bounds::EMPTY;
@@ -182,7 +172,7 @@ impl Keeper {
     fn new(first: u64) -> Self {
         Self {
             cluster: Cluster::new(first),
-            near: [TAKEN; LANES],
+            near: Near::TAKEN,
             len: 0,
         }
     }
@@ -200,11 +190,11 @@ impl Keeper {
         let (mut lanes, mut count) = ([0u8; LANES], 0);
         for lane in 0..LANES {
             lanes[count] = lane as u8;
-            count += (near[lane] >= floor) as usize;
+            count += (near.0[lane] >= floor) as usize;
         }
         for &lane in &lanes[..count] {
             self.cluster.copy(self.len, drawn, lane as usize);
-            self.near[self.len] = near[lane as usize];
+            self.near.0[self.len] = near.0[lane as usize];
             self.len += 1;
             if self.len == LANES {
                 self.flush(ground, found);
@@ -218,7 +208,7 @@ impl Keeper {
             self.cluster.close(self.len, ground);
             found.clusters.push(self.cluster.clone());
             found.near.push(self.near);
-            (self.near, self.len) = ([TAKEN; LANES], 0);
+            (self.near, self.len) = (Near::TAKEN, 0);
         }
     }
 }
@@ -230,11 +220,17 @@ struct Taken {
 }
 
 impl Taken {
-    fn new(sites: Vec<Site>) -> Self {
-        let bounds = |sites: &[Site]| Bounds::around(sites.iter().map(Site::bounds));
+    /// Of roots along the curve.
+    fn new(pool: &Pool, roots: &[Placed]) -> Self {
+        let leaf = |roots: &[Placed]| {
+            let mut leaf = Leaf::EMPTY;
+            roots.iter().for_each(|root| leaf.add(&pool.site(root)));
+            leaf
+        };
+        let leaves: Vec<Leaf> = roots.par_chunks(LEAF).map(leaf).collect();
         Self {
-            tree: Hierarchy::new(sites.chunks(LEAF).map(bounds)),
-            leaves: sites.chunks(LEAF).map(Leaf::new).collect(),
+            tree: Hierarchy::new(leaves.iter().map(Leaf::bounds)),
+            leaves,
         }
     }
 
