@@ -21,6 +21,7 @@
 mod cluster;
 mod ground;
 pub(crate) mod hierarchy;
+mod keeper;
 mod leaf;
 mod pool;
 mod stage;
@@ -180,15 +181,17 @@ fn roots(ground: &Ground, count: u64, seed: u64) -> Vec<Root> {
         let goal = (hairs.len() as u64 * 5 / 4).next_power_of_two().max(FIRST);
         let floor = reach * FLOOR;
         let pool = Pool::new(ground, goal, seed);
-        let found = pool.clusters(&along, reach as f32, floor as f32);
-        let mut stage = Stage::new(ground, &found, reach as f32);
         let (mut levels, mut reached) = (0, hairs.len() as u64);
-        while reached < goal.min(count) && reach >= floor {
-            reached += stage.level(reach as f32, (reach * STEP) as f32) as u64;
-            reach *= STEP;
-            levels += 1;
-        }
-        let taken = stage.taken();
+        let taken = {
+            let found = pool.clusters(&along, reach as f32, floor as f32);
+            let mut stage = Stage::new(ground, &found, reach as f32);
+            while reached < goal.min(count) && reach >= floor {
+                reached += stage.level(reach as f32, (reach * STEP) as f32) as u64;
+                reach *= STEP;
+                levels += 1;
+            }
+            stage.taken()
+        };
         let fractions: Vec<u64> = taken.iter().map(|t| pool.fraction(t.0)).collect();
         let placed = ground.rows(&fractions, Placed::at).concat();
         let mut by_level = vec![Vec::new(); levels];
@@ -196,7 +199,9 @@ fn roots(ground: &Ground, count: u64, seed: u64) -> Vec<Root> {
             by_level[*level].push(placed.root);
         }
         by_level.iter().for_each(|roots| spread(roots, &mut hairs));
-        along = merged(&along, &placed);
+        if reached < count {
+            along = merged(&along, &placed);
+        }
     }
     hairs.truncate(count as usize);
     hairs

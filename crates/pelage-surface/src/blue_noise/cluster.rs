@@ -1,6 +1,6 @@
 //! Candidates that lie together, so that a root pushes many of them at once.
 
-use super::ground::{Ground, LANES, Places, ROW, Site};
+use super::ground::{Ground, LANES, ROW, Site};
 use super::hierarchy::Bounds;
 use super::leaf::{LEAF, Leaf};
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f32x16, mask32x16};
@@ -18,14 +18,10 @@ pub(crate) const TAKEN: f32 = -1.0;
 #[repr(align(64))]
 pub(crate) struct Near(pub [f32; LANES]);
 
-impl Near {
-    pub(crate) const TAKEN: Near = Near([TAKEN; LANES]);
-}
-
 /// The same in registers.
 #[derive(Clone, Copy)]
 pub(crate) struct Distances<S: Simd> {
-    simd: S,
+    pub simd: S,
     rows: [f32x16<S>; LANES / ROW],
 }
 
@@ -41,6 +37,12 @@ impl<S: Simd> Distances<S> {
     pub(crate) fn load(simd: S, near: &Near) -> Self {
         let rows = rows(simd, &near.0);
         Self { simd, rows }
+    }
+
+    /// The distances of one row of lanes.
+    #[inline(always)]
+    pub(crate) fn row(&self, row: usize) -> f32x16<S> {
+        self.rows[row]
     }
 
     #[inline(always)]
@@ -87,96 +89,67 @@ fn rows<S: Simd>(simd: S, values: &[f32; LANES]) -> [f32x16<S>; LANES / ROW] {
     rows
 }
 
-/// Up to [`LANES`] candidates that follow each other along the curve.
+/// Up to [`LANES`] candidates that follow each other along the curve. Lanes without a
+/// candidate repeat one, so that they need no test of their own.
 #[derive(Clone)]
 #[repr(align(64))]
+pub(crate) struct Columns {
+    pub x: [f32; LANES],
+    pub y: [f32; LANES],
+    pub z: [f32; LANES],
+    pub closeness: [f32; LANES],
+    pub triangle: [u32; LANES],
+    /// Number of each candidate in the pool, from the first of its cluster on.
+    pub offset: [u16; LANES],
+}
+
+/// Candidates, and what they have in common.
+#[derive(Clone)]
 pub(crate) struct Cluster {
-    x: [f32; LANES],
-    y: [f32; LANES],
-    z: [f32; LANES],
-    closeness: [f32; LANES],
-    triangle: [u32; LANES],
-    /// Number of each candidate in the pool, from `first` on.
-    offset: [u16; LANES],
+    columns: Columns,
     first: u64,
     facing: Facing,
     pub bounds: Bounds,
 }
 
 impl Cluster {
-    /// Without candidates yet; they will have numbers from `first` on.
-    pub(crate) const fn new(first: u64) -> Self {
+    /// Candidates whose numbers count from `first` on.
+    #[inline(always)]
+    pub(crate) fn new<S: Simd>(simd: S, columns: Columns, first: u64, ground: &Ground) -> Self {
+        let Columns { x, y, z, .. } = &columns;
         Self {
-            x: [0.0; LANES],
-            y: [0.0; LANES],
-            z: [0.0; LANES],
-            closeness: [0.0; LANES],
-            triangle: [0; LANES],
-            offset: [0; LANES],
+            bounds: Bounds {
+                low: Vec3::new(least(simd, x), least(simd, y), least(simd, z)),
+                high: Vec3::new(most(simd, x), most(simd, y), most(simd, z)),
+                least: least(simd, &columns.closeness),
+            },
+            facing: Facing::of(&columns.triangle, ground.normals()),
+            columns,
             first,
-            facing: Facing::ALL,
-            bounds: Bounds::EMPTY,
         }
     }
 
-    /// Takes the candidates at `places`, the first of which has the number `offset` from
-    /// the first number on.
-    #[inline(always)]
-    pub(crate) fn draw(&mut self, places: &Places, offset: u16, ground: &Ground) {
-        self.x.copy_from_slice(&places.x[..LANES]);
-        self.y.copy_from_slice(&places.y[..LANES]);
-        self.z.copy_from_slice(&places.z[..LANES]);
-        self.triangle.copy_from_slice(&places.triangle[..LANES]);
-        self.closeness.copy_from_slice(&places.closeness[..LANES]);
-        for lane in 0..LANES {
-            self.offset[lane] = offset + lane as u16;
-        }
-        self.close(LANES, ground);
-    }
-
-    /// Copies a candidate of another cluster with the same `first`.
-    #[inline(always)]
-    pub(crate) fn copy(&mut self, lane: usize, other: &Cluster, from: usize) {
-        self.x[lane] = other.x[from];
-        self.y[lane] = other.y[from];
-        self.z[lane] = other.z[from];
-        self.closeness[lane] = other.closeness[from];
-        self.triangle[lane] = other.triangle[from];
-        self.offset[lane] = other.offset[from];
+    pub(crate) fn columns(&self) -> &Columns {
+        &self.columns
     }
 
     #[inline(always)]
     pub(crate) fn site(&self, lane: usize, normals: &[Vec3]) -> Site {
         Site {
-            position: Vec3::new(self.x[lane], self.y[lane], self.z[lane]),
-            closeness: self.closeness[lane],
-            normal: normals[self.triangle[lane] as usize],
+            position: Vec3::new(
+                self.columns.x[lane],
+                self.columns.y[lane],
+                self.columns.z[lane],
+            ),
+            closeness: self.columns.closeness[lane],
+            normal: normals[self.columns.triangle[lane] as usize],
         }
     }
 
     /// Number of a candidate in its pool.
     #[inline(always)]
     pub(crate) fn number(&self, lane: usize) -> u64 {
-        self.first + self.offset[lane] as u64
-    }
-
-    /// Takes the first `len` lanes as all there are, and measures them.
-    #[inline(always)]
-    pub(crate) fn close(&mut self, len: usize, ground: &Ground) {
-        // Lanes without a candidate repeat one, so that they need no test of their own.
-        for lane in len..LANES {
-            self.x[lane] = self.x[0];
-            self.y[lane] = self.y[0];
-            self.z[lane] = self.z[0];
-            self.closeness[lane] = self.closeness[0];
-            self.triangle[lane] = self.triangle[0];
-        }
-        self.bounds = Bounds {
-            low: Vec3::new(least(&self.x), least(&self.y), least(&self.z)),
-            high: Vec3::new(most(&self.x), most(&self.y), most(&self.z)),
-            least: least(&self.closeness),
-        };
-        self.facing = Facing::of(&self.triangle, ground.normals());
+        self.first + self.columns.offset[lane] as u64
     }
 
     /// The candidates learn of those of `roots` that may be within `reach`.
@@ -188,11 +161,8 @@ impl Cluster {
         reach: f32,
         normals: &[Vec3],
     ) {
-        let mut close = roots.near(near.simd, &self.bounds, reach);
-        while close != 0 {
-            let site = roots.site(close.trailing_zeros() as usize % LEAF);
-            self.push(near, &site, normals);
-            close &= close - 1;
+        for root in bits(roots.near(near.simd, &self.bounds, reach)) {
+            self.push(near, &roots.site(root % LEAF), normals);
         }
     }
 
@@ -214,7 +184,7 @@ impl Cluster {
     /// The same where only some candidates may see the root.
     #[inline(always)]
     fn push_seen<S: Simd>(&self, near: &mut Distances<S>, site: &Site, normals: &[Vec3]) {
-        let (simd, triangles) = (near.simd, self.triangle.as_chunks::<ROW>().0);
+        let (simd, triangles) = (near.simd, self.columns.triangle.as_chunks::<ROW>().0);
         let distances = self.distances(simd, site);
         for (row, (near, distance)) in near.rows.iter_mut().zip(&distances).enumerate() {
             let sees = |k: usize| normals[triangles[row][k] as usize].dot(site.normal) > 0.0;
@@ -228,11 +198,11 @@ impl Cluster {
     fn distances<S: Simd>(&self, simd: S, site: &Site) -> [f32x16<S>; LANES / ROW] {
         let [px, py, pz] = site.position.to_array();
         let (xs, ys, zs) = (
-            rows(simd, &self.x),
-            rows(simd, &self.y),
-            rows(simd, &self.z),
+            rows(simd, &self.columns.x),
+            rows(simd, &self.columns.y),
+            rows(simd, &self.columns.z),
         );
-        let mut distances = rows(simd, &self.closeness);
+        let mut distances = rows(simd, &self.columns.closeness);
         for (k, distance) in distances.iter_mut().enumerate() {
             let (x, y, z) = (xs[k] - px, ys[k] - py, zs[k] - pz);
             *distance = (x * x + y * y + z * z) * (*distance * site.closeness);
@@ -242,32 +212,25 @@ impl Cluster {
 }
 
 #[inline(always)]
-fn least(values: &[f32; LANES]) -> f32 {
-    fold(values, |a, b| if b < a { b } else { a })
+fn least<S: Simd>(simd: S, values: &[f32; LANES]) -> f32 {
+    let [a, b, c, d] = rows(simd, values);
+    a.min(b).min(c.min(d)).reduce_min()
 }
 
 #[inline(always)]
-fn most(values: &[f32; LANES]) -> f32 {
-    fold(values, |a, b| if b > a { b } else { a })
+fn most<S: Simd>(simd: S, values: &[f32; LANES]) -> f32 {
+    let [a, b, c, d] = rows(simd, values);
+    a.max(b).max(c.max(d)).reduce_max()
 }
 
-/// Folds many lanes at once.
+/// The numbers of the bits that are set, ascending.
 #[inline(always)]
-fn fold(values: &[f32; LANES], with: impl Fn(f32, f32) -> f32) -> f32 {
-    let mut sides = [0.0; 16];
-    sides.copy_from_slice(&values[..16]);
-    for row in values[16..].chunks_exact(16) {
-        for (side, &value) in sides.iter_mut().zip(row) {
-            *side = with(*side, value);
-        }
-    }
-    // Half with half, since one after the other would each wait for the last.
-    for half in [8, 4, 2, 1] {
-        for k in 0..half {
-            sides[k] = with(sides[k], sides[k + half]);
-        }
-    }
-    sides[0]
+pub(crate) fn bits(mut word: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = word.trailing_zeros() as usize;
+        word &= word.wrapping_sub(1);
+        (bit < 64).then_some(bit)
+    })
 }
 
 /// Where the normals of a cluster point: a cone.
@@ -285,15 +248,19 @@ impl Facing {
         sine: 2.0,
     };
 
-    fn of(triangles: &[u32], normals: &[Vec3]) -> Self {
-        let runs = || triangles.chunk_by(|a, b| a == b);
-        let sum = runs().fold(Vec3::ZERO, |sum, run| sum + normals[run[0] as usize]);
+    #[inline(always)]
+    fn of(triangles: &[u32; LANES], normals: &[Vec3]) -> Self {
+        // Bits where runs of one triangle begin.
+        let mut begins = 1;
+        for lane in 1..LANES {
+            begins |= ((triangles[lane] != triangles[lane - 1]) as u64) << lane;
+        }
+        let runs = || bits(begins).map(|lane| normals[triangles[lane % LANES] as usize]);
+        let sum = runs().fold(Vec3::ZERO, |sum, normal| sum + normal);
         let Some(axis) = sum.try_normalize() else {
             return Self::ALL;
         };
-        let cosine = runs()
-            .map(|run| normals[run[0] as usize].dot(axis))
-            .fold(1.0, f32::min);
+        let cosine = runs().fold(1.0, |least: f32, normal| least.min(normal.dot(axis)));
         // Some more than the sine, so that rounding never decides.
         match cosine > 0.0 {
             true => Self {

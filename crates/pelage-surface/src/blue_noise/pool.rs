@@ -1,9 +1,10 @@
 //! The candidates of a stage: one at random in each of many equal parts of the mass.
 
 use super::Placed;
-use super::cluster::{Cluster, Distances, Near};
+use super::cluster::{Cluster, Columns, Distances, Near};
 use super::ground::{Fractions, Ground, LANES, Milestone, Places, Site};
 use super::hierarchy::{Bounds, Hierarchy};
+use super::keeper::Keeper;
 use super::leaf::{LEAF, Leaf};
 use crate::hash;
 use crate::sequence::mix;
@@ -30,7 +31,6 @@ const ROWS: usize = 4;
 const BLOCK: u64 = (ROWS * LANES) as u64;
 
 /// Clusters found by one task, and what is known of their candidates.
-#[derive(Default)]
 pub(crate) struct Found {
     pub clusters: Vec<Cluster>,
     pub near: Vec<Near>,
@@ -84,7 +84,7 @@ impl<'a> Pool<'a> {
     }
 
     #[inline(always)]
-    fn draw(&self, first: u64, chunk: u64, places: &mut Places) -> Cluster {
+    fn draw<S: Simd>(&self, simd: S, first: u64, chunk: u64, places: &mut Places) -> Cluster {
         let number = |lane: usize| first + lane as u64;
         let fractions = Fractions::new(|lane| self.fraction(number(lane)));
         self.ground.places(&fractions, places);
@@ -92,9 +92,18 @@ impl<'a> Pool<'a> {
             let part = (number(lane) / SMOOTHED) as usize;
             places.closeness[lane] = self.smoothed(part, places.closeness[lane]);
         }
-        let mut drawn = Cluster::new(chunk);
-        drawn.draw(places, (first - chunk) as u16, self.ground);
-        drawn
+        let mut columns = Columns {
+            x: *front(&places.x),
+            y: *front(&places.y),
+            z: *front(&places.z),
+            closeness: *front(&places.closeness),
+            triangle: *front(&places.triangle),
+            offset: [0; LANES],
+        };
+        for (lane, offset) in columns.offset.iter_mut().enumerate() {
+            *offset = (number(lane) - chunk) as u16;
+        }
+        Cluster::new(simd, columns, chunk, self.ground)
     }
 
     /// What candidates see of a root.
@@ -116,7 +125,11 @@ impl<'a> Pool<'a> {
             .into_par_iter()
             .map(|chunk| {
                 let numbers = chunk * CHUNK..((chunk + 1) * CHUNK).min(self.count);
-                let mut found = Found::default();
+                // About two fifths are kept.
+                let mut found = Found {
+                    clusters: Vec::with_capacity(LANES / 2),
+                    near: Vec::with_capacity(LANES / 2),
+                };
                 dispatch!(Level::new(), simd => {
                     self.chunk(simd, numbers, &taken, reach, floor, &mut found)
                 });
@@ -139,78 +152,31 @@ impl<'a> Pool<'a> {
         let mut kept = Keeper::new(chunk);
         let mut leaves = Vec::new();
         let mut places = Places::new();
-        let mut distances = Near::TAKEN;
+        let mut drawn = Vec::with_capacity(ROWS);
         for first in numbers.step_by(BLOCK as usize) {
-            let mut drawn = [const { Cluster::new(0) }; ROWS];
-            let mut bounds = Bounds::EMPTY;
-            for (row, drawn) in drawn.iter_mut().enumerate() {
-                *drawn = self.draw(first + (row * LANES) as u64, chunk, &mut places);
-                bounds = bounds.and(&drawn.bounds);
+            drawn.clear();
+            for row in 0..ROWS {
+                drawn.push(self.draw(simd, first + (row * LANES) as u64, chunk, &mut places));
             }
+            let bounds = Bounds::around(drawn.iter().map(|cluster: &Cluster| cluster.bounds));
             taken.leaves(&bounds, reach, &mut leaves);
             for drawn in &drawn {
                 let mut near = Distances::all(simd, f32::INFINITY);
                 for leaf in taken.around(&leaves, &drawn.bounds, reach) {
                     drawn.learn(&mut near, leaf, reach, self.ground.normals());
                 }
-                near.store(&mut distances);
-                kept.keep(drawn, &distances, floor, self.ground, found);
+                kept.keep(drawn, &near, floor, self.ground, found);
             }
         }
-        kept.flush(self.ground, found);
+        kept.flush(simd, self.ground, found);
     }
 }
 
-/// Gathers candidates until they fill a cluster.
-struct Keeper {
-    cluster: Cluster,
-    near: Near,
-    len: usize,
-}
-
-impl Keeper {
-    fn new(first: u64) -> Self {
-        Self {
-            cluster: Cluster::new(first),
-            near: Near::TAKEN,
-            len: 0,
-        }
-    }
-
-    #[inline(always)]
-    fn keep(
-        &mut self,
-        drawn: &Cluster,
-        near: &Near,
-        floor: f32,
-        ground: &Ground,
-        found: &mut Found,
-    ) {
-        // Which are kept is as good as random: without branches.
-        let (mut lanes, mut count) = ([0u8; LANES], 0);
-        for lane in 0..LANES {
-            lanes[count] = lane as u8;
-            count += (near.0[lane] >= floor) as usize;
-        }
-        for &lane in &lanes[..count] {
-            self.cluster.copy(self.len, drawn, lane as usize);
-            self.near.0[self.len] = near.0[lane as usize];
-            self.len += 1;
-            if self.len == LANES {
-                self.flush(ground, found);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn flush(&mut self, ground: &Ground, found: &mut Found) {
-        if self.len > 0 {
-            self.cluster.close(self.len, ground);
-            found.clusters.push(self.cluster.clone());
-            found.near.push(self.near);
-            (self.near, self.len) = (Near::TAKEN, 0);
-        }
-    }
+/// As many lanes as a cluster has.
+#[inline(always)]
+fn front<T>(lanes: &[T]) -> &[T; LANES] {
+    // Rows are written whole, so there are more.
+    lanes.first_chunk().expect("more lanes than a cluster has")
 }
 
 /// The roots of earlier stages.

@@ -7,7 +7,7 @@
 //! what they can, one after the other, each the farthest first, and tell the others of
 //! the tile. So what comes out is the same for any number of threads.
 
-use super::cluster::{Cluster, Distances, Near};
+use super::cluster::{Cluster, Distances, Near, bits};
 use super::ground::{Ground, Site};
 use super::hierarchy::{Bounds, Boxes, Hierarchy};
 use super::leaf::{LEAF, Leaf};
@@ -204,16 +204,6 @@ impl<'a> Tile<'a> {
             near.store(&mut self.near[cluster]);
         }
     }
-}
-
-/// The numbers of the bits that are set, ascending.
-#[inline(always)]
-fn bits(mut word: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let bit = word.trailing_zeros() as usize;
-        word &= word.wrapping_sub(1);
-        (bit < 64).then_some(bit)
-    })
 }
 
 /// Which tiles have clusters within `reach` of clusters of each.
