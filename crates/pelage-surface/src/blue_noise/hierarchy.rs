@@ -136,11 +136,6 @@ impl Hierarchy {
         Self { nodes }
     }
 
-    #[inline(always)]
-    pub(crate) fn leaf(&self, leaf: usize) -> &Bounds {
-        &self.nodes[self.nodes.len() / 2 + leaf]
-    }
-
     /// Calls `visit` with the leaves whose [gap](Bounds::gap) to `bounds` is less than
     /// `reach`, in ascending order.
     #[inline(always)]

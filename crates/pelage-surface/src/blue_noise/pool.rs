@@ -1,9 +1,9 @@
 //! The candidates of a stage: one at random in each of many equal parts of the mass.
 
 use super::Placed;
-use super::cluster::{Cluster, Columns, Distances, Near};
+use super::cluster::{Cluster, Columns, Distances, Near, bits};
 use super::ground::{Fractions, Ground, LANES, Milestone, Places, Site};
-use super::hierarchy::{Bounds, Hierarchy};
+use super::hierarchy::{Bounds, Boxes, Hierarchy};
 use super::keeper::Keeper;
 use super::leaf::{LEAF, Leaf};
 use crate::hash;
@@ -150,7 +150,7 @@ impl<'a> Pool<'a> {
     ) {
         let chunk = numbers.start;
         let mut kept = Keeper::new(chunk);
-        let mut leaves = Vec::new();
+        let mut groups = Vec::new();
         let mut places = Places::new();
         let mut drawn = Vec::with_capacity(ROWS);
         for first in numbers.step_by(BLOCK as usize) {
@@ -159,11 +159,13 @@ impl<'a> Pool<'a> {
                 drawn.push(self.draw(simd, first + (row * LANES) as u64, chunk, &mut places));
             }
             let bounds = Bounds::around(drawn.iter().map(|cluster: &Cluster| cluster.bounds));
-            taken.leaves(&bounds, reach, &mut leaves);
+            taken.groups(&bounds, reach, &mut groups);
             for drawn in &drawn {
                 let mut near = Distances::all(simd, f32::INFINITY);
-                for leaf in taken.around(&leaves, &drawn.bounds, reach) {
-                    drawn.learn(&mut near, leaf, reach, self.ground.normals());
+                for &group in &groups {
+                    for leaf in taken.near(simd, group, &drawn.bounds, reach) {
+                        drawn.learn(&mut near, leaf, reach, self.ground.normals());
+                    }
                 }
                 kept.keep(drawn, &near, floor, self.ground, found);
             }
@@ -182,6 +184,9 @@ fn front<T>(lanes: &[T]) -> &[T; LANES] {
 /// The roots of earlier stages.
 struct Taken {
     leaves: Vec<Leaf>,
+    /// Of the leaves, in the same order.
+    boxes: Vec<Boxes>,
+    /// Of the boxes.
     tree: Hierarchy,
 }
 
@@ -194,22 +199,32 @@ impl Taken {
             leaf
         };
         let leaves: Vec<Leaf> = roots.par_chunks(LEAF).map(leaf).collect();
+        let bounds: Vec<Bounds> = leaves.iter().map(Leaf::bounds).collect();
+        let groups = bounds.chunks(Boxes::MOST);
         Self {
-            tree: Hierarchy::new(leaves.iter().map(Leaf::bounds)),
+            tree: Hierarchy::new(groups.clone().map(|g| Bounds::around(g.iter().copied()))),
+            boxes: groups.map(|g| Boxes::new(g.iter().copied())).collect(),
             leaves,
         }
     }
 
+    /// Finds the groups of leaves that may be within `reach` of `bounds`.
     #[inline(always)]
-    fn leaves(&self, bounds: &Bounds, reach: f32, leaves: &mut Vec<usize>) {
-        leaves.clear();
-        self.tree.near(bounds, reach, |leaf| leaves.push(leaf));
+    fn groups(&self, bounds: &Bounds, reach: f32, groups: &mut Vec<usize>) {
+        groups.clear();
+        self.tree.near(bounds, reach, |group| groups.push(group));
     }
 
-    /// Those of `leaves` that may be within `reach` of `bounds`.
+    /// Those leaves of `group` that may be within `reach` of `bounds`.
     #[inline(always)]
-    fn around(&self, leaves: &[usize], bounds: &Bounds, reach: f32) -> impl Iterator<Item = &Leaf> {
-        let near = move |leaf: &&usize| self.tree.leaf(**leaf).gap(bounds) < reach;
-        leaves.iter().filter(near).map(|&leaf| &self.leaves[leaf])
+    fn near<S: Simd>(
+        &self,
+        simd: S,
+        group: usize,
+        bounds: &Bounds,
+        reach: f32,
+    ) -> impl Iterator<Item = &Leaf> {
+        let [near] = self.boxes[group].near(simd, bounds, [reach]);
+        bits(near).map(move |leaf| &self.leaves[group * Boxes::MOST + leaf])
     }
 }
