@@ -177,9 +177,27 @@ impl Hierarchy {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
 
     proptest! {
+        #[test]
+        fn boxes_compared_at_once_are_near_as_those_compared_one_by_one(
+            places in prop::collection::vec((prop::array::uniform3(0f32..1.0), 0.5f32..2.0), 0..=64),
+            at in prop::array::uniform3(0f32..1.0), reaches in prop::array::uniform2(0f32..0.5),
+        ) {
+            let bounds = |&(p, least): &([f32; 3], f32)| {
+                Bounds { low: p.into(), high: Vec3::from(p) + 0.1, least }
+            };
+            let query = bounds(&(at, 1.0));
+            let boxes = Boxes::new(places.iter().map(bounds));
+            let near = dispatch!(Level::new(), simd => boxes.near(simd, &query, reaches));
+            for (near, reach) in near.into_iter().zip(reaches) {
+                let is_near = |i: usize| places.get(i).is_some_and(|p| bounds(p).gap(&query) < reach);
+                prop_assert_eq!(near, (0..64).fold(0, |bits, i| bits | (is_near(i) as u64) << i));
+            }
+        }
+
         #[test]
         fn near_boxes_are_those_that_comparing_with_all_finds(
             places in prop::collection::vec((prop::array::uniform3(0f32..1.0), 0.5f32..2.0), 0..70),
