@@ -84,7 +84,7 @@ impl BlueNoise {
     /// The first `count` roots on `mesh` at rest, by the density and the seed of
     /// `sampler`, which was made of `mesh`.
     ///
-    /// Takes 16 bytes a root, and while it works some 150 more.
+    /// Takes 16 bytes a root, and while it works some 170 more.
     pub fn new(mesh: &Mesh, sampler: &RootSampler, count: u64) -> Self {
         Self {
             roots: roots(&Ground::new(mesh, sampler), count, sampler.seed()),
