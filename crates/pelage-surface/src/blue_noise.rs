@@ -21,6 +21,8 @@
 mod cluster;
 mod ground;
 pub(crate) mod hierarchy;
+mod keeper;
+mod leaf;
 mod pool;
 mod stage;
 #[cfg(test)]
@@ -28,6 +30,7 @@ mod tests;
 
 use crate::{Mesh, RootSampler, SurfacePoint};
 use ground::{Ground, Places};
+use pelage_curves::Vec3;
 use pool::Pool;
 use stage::Stage;
 use std::ops::Range;
@@ -81,7 +84,7 @@ impl BlueNoise {
     /// The first `count` roots on `mesh` at rest, by the density and the seed of
     /// `sampler`, which was made of `mesh`.
     ///
-    /// Takes 16 bytes a root, and while it works some 150 more.
+    /// Takes 16 bytes a root, and while it works some 170 more.
     pub fn new(mesh: &Mesh, sampler: &RootSampler, count: u64) -> Self {
         Self {
             roots: roots(&Ground::new(mesh, sampler), count, sampler.seed()),
@@ -147,9 +150,30 @@ impl Root {
     }
 }
 
+/// A root on the curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed {
+    /// Of the mass.
+    fraction: u64,
+    root: Root,
+    /// On the surface of unit area.
+    position: Vec3,
+}
+
+impl Placed {
+    #[inline(always)]
+    fn at(places: &Places, lane: usize, fraction: u64) -> Self {
+        Self {
+            fraction,
+            root: Root::at(places, lane),
+            position: Vec3::new(places.x[lane], places.y[lane], places.z[lane]),
+        }
+    }
+}
+
 fn roots(ground: &Ground, count: u64, seed: u64) -> Vec<Root> {
     let mut hairs = Vec::new();
-    // The same roots as fractions of the mass, ascending.
+    // The same roots along the curve.
     let mut along = Vec::new();
     let mut reach = ground.extent();
     while (hairs.len() as u64) < count {
@@ -157,15 +181,27 @@ fn roots(ground: &Ground, count: u64, seed: u64) -> Vec<Root> {
         let goal = (hairs.len() as u64 * 5 / 4).next_power_of_two().max(FIRST);
         let floor = reach * FLOOR;
         let pool = Pool::new(ground, goal, seed);
-        let found = pool.clusters(&along, reach as f32, floor as f32);
-        let mut stage = Stage::new(ground, &found, reach as f32, floor as f32);
-        while (hairs.len() as u64) < goal.min(count) && reach >= floor {
-            let fractions = pool.fractions(&stage.level(reach as f32));
-            let rows = ground.rows(&fractions, |places, lane, _| Root::at(places, lane));
-            spread(&rows.concat(), &mut hairs);
-            reach *= STEP;
+        let (mut levels, mut reached) = (0, hairs.len() as u64);
+        let taken = {
+            let found = pool.clusters(&along, reach as f32, floor as f32);
+            let mut stage = Stage::new(ground, &found, reach as f32);
+            while reached < goal.min(count) && reach >= floor {
+                reached += stage.level(reach as f32, (reach * STEP) as f32) as u64;
+                reach *= STEP;
+                levels += 1;
+            }
+            stage.taken()
+        };
+        let fractions: Vec<u64> = taken.iter().map(|t| pool.fraction(t.0)).collect();
+        let placed = ground.rows(&fractions, Placed::at).concat();
+        let mut by_level = vec![Vec::new(); levels];
+        for ((_, level), placed) in taken.iter().zip(&placed) {
+            by_level[*level].push(placed.root);
         }
-        along = merged(&along, &pool.fractions(&stage.taken()));
+        by_level.iter().for_each(|roots| spread(roots, &mut hairs));
+        if reached < count {
+            along = merged(&along, &placed);
+        }
     }
     hairs.truncate(count as usize);
     hairs
@@ -180,12 +216,12 @@ fn spread(roots: &[Root], hairs: &mut Vec<Root>) {
     hairs.extend(order.filter_map(|i| roots.get(i as usize)));
 }
 
-/// Two ascending lists as one.
-fn merged(a: &[u64], b: &[u64]) -> Vec<u64> {
+/// Two lists along the curve as one.
+fn merged(a: &[Placed], b: &[Placed]) -> Vec<Placed> {
     let mut all = Vec::with_capacity(a.len() + b.len());
     let mut a = a.iter().copied().peekable();
     for &y in b {
-        while let Some(x) = a.next_if(|x| *x <= y) {
+        while let Some(x) = a.next_if(|x| x.fraction <= y.fraction) {
             all.push(x);
         }
         all.push(y);

@@ -36,7 +36,7 @@ pub(crate) const LANES: usize = 64;
 
 /// Lanes computed at once. Pieces end anywhere, so what is computed of one runs over
 /// into the lanes of the next, which come later.
-const ROW: usize = 16;
+pub(crate) const ROW: usize = 16;
 
 /// Where [`LANES`] fractions lead.
 #[derive(Clone)]
@@ -119,6 +119,11 @@ impl<'a> Ground<'a> {
     /// Unit normals of the triangles; 0 where they have no area.
     pub(crate) fn normals(&self) -> &[Vec3] {
         &self.normals
+    }
+
+    /// By what to multiply distances on `piece`.
+    pub(crate) fn closeness(&self, piece: u32) -> f32 {
+        self.closeness[piece as usize]
     }
 
     /// The longest distance there is, squared.

@@ -1,12 +1,14 @@
 //! The candidates of a stage: one at random in each of many equal parts of the mass.
 
-use super::cluster::{Cluster, Near, TAKEN};
+use super::Placed;
+use super::cluster::{Cluster, Columns, Distances, Near, bits};
 use super::ground::{Fractions, Ground, LANES, Milestone, Places, Site};
-use super::hierarchy::{Bounds, Hierarchy};
+use super::hierarchy::{Bounds, Boxes, Hierarchy};
+use super::keeper::Keeper;
+use super::leaf::{LEAF, Leaf};
 use crate::hash;
 use crate::sequence::mix;
-use fearless_simd::{Level, dispatch};
-use pelage_curves::Vec3;
+use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -22,9 +24,6 @@ const SMOOTHED: u64 = 8;
 /// Candidates drawn by one task, as many as a chunk of clusters comes from.
 const CHUNK: u64 = 64 * LANES as u64;
 
-/// Roots in a leaf of their hierarchy: as many as processors compare at once.
-const LEAF: usize = 16;
-
 /// Clusters drawn together, to look for the roots around them once.
 const ROWS: usize = 4;
 
@@ -32,7 +31,6 @@ const ROWS: usize = 4;
 const BLOCK: u64 = (ROWS * LANES) as u64;
 
 /// Clusters found by one task, and what is known of their candidates.
-#[derive(Default)]
 pub(crate) struct Found {
     pub clusters: Vec<Cluster>,
     pub near: Vec<Near>,
@@ -72,18 +70,10 @@ impl<'a> Pool<'a> {
 
     /// The fraction of the mass that candidate `number` is at.
     #[inline(always)]
-    fn fraction(&self, number: u64) -> u64 {
+    pub(crate) fn fraction(&self, number: u64) -> u64 {
         let at_random = mix(number as u32 ^ mix((number >> 32) as u32 ^ self.key)) as u64;
         let (high, low) = (self.step >> 32, self.step & 0xffff_ffff);
         number * self.step + high * at_random + ((low * at_random) >> 32)
-    }
-
-    /// The fractions of all candidates in `numbers`.
-    pub(crate) fn fractions(&self, numbers: &[u64]) -> Vec<u64> {
-        numbers
-            .iter()
-            .map(|&number| self.fraction(number))
-            .collect()
     }
 
     /// The closeness in a part of the mass where the piece has its `own`.
@@ -94,7 +84,7 @@ impl<'a> Pool<'a> {
     }
 
     #[inline(always)]
-    fn draw(&self, first: u64, chunk: u64, places: &mut Places) -> Cluster {
+    fn draw<S: Simd>(&self, simd: S, first: u64, chunk: u64, places: &mut Places) -> Cluster {
         let number = |lane: usize| first + lane as u64;
         let fractions = Fractions::new(|lane| self.fraction(number(lane)));
         self.ground.places(&fractions, places);
@@ -102,36 +92,46 @@ impl<'a> Pool<'a> {
             let part = (number(lane) / SMOOTHED) as usize;
             places.closeness[lane] = self.smoothed(part, places.closeness[lane]);
         }
-        let mut drawn = Cluster::new(chunk);
-        drawn.draw(places, (first - chunk) as u16, self.ground);
-        drawn
+        let mut columns = Columns {
+            x: *front(&places.x),
+            y: *front(&places.y),
+            z: *front(&places.z),
+            closeness: *front(&places.closeness),
+            triangle: *front(&places.triangle),
+            offset: [0; LANES],
+        };
+        for (lane, offset) in columns.offset.iter_mut().enumerate() {
+            *offset = (number(lane) - chunk) as u16;
+        }
+        Cluster::new(simd, columns, chunk, self.ground)
     }
 
-    /// The roots at the fractions `roots`, ascending.
-    fn sites(&self, roots: &[u64]) -> Vec<Site> {
-        let rows = self.ground.rows(roots, |places, lane, x| {
-            let part = ((x / self.step / SMOOTHED) as usize).min(self.closeness.len() - 1);
-            Site {
-                position: Vec3::new(places.x[lane], places.y[lane], places.z[lane]),
-                closeness: self.smoothed(part, places.closeness[lane]),
-                normal: self.ground.normals()[places.triangle[lane] as usize],
-            }
-        });
-        rows.concat()
+    /// What candidates see of a root.
+    fn site(&self, root: &Placed) -> Site {
+        let part = (root.fraction / (self.step * SMOOTHED)) as usize;
+        let own = self.ground.closeness(root.root.piece);
+        Site {
+            position: root.position,
+            closeness: self.smoothed(part.min(self.closeness.len() - 1), own),
+            normal: self.ground.normals()[root.root.triangle as usize],
+        }
     }
 
     /// Clusters, along the curve, of the candidates that are `floor` (squared) away from
-    /// all `roots`, with their distances from the nearest of those within `reach`.
-    pub(crate) fn clusters(&self, roots: &[u64], reach: f32, floor: f32) -> Vec<Found> {
-        let taken = Taken::new(self.sites(roots));
+    /// all `roots`, which follow the curve, with their distances from the nearest of those within `reach`.
+    pub(crate) fn clusters(&self, roots: &[Placed], reach: f32, floor: f32) -> Vec<Found> {
+        let taken = Taken::new(self, roots);
         (0..self.count.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
                 let numbers = chunk * CHUNK..((chunk + 1) * CHUNK).min(self.count);
-                let mut found = Found::default();
+                // About two fifths are kept.
+                let mut found = Found {
+                    clusters: Vec::with_capacity(LANES / 2),
+                    near: Vec::with_capacity(LANES / 2),
+                };
                 dispatch!(Level::new(), simd => {
-                    let _ = simd;
-                    self.chunk(numbers, &taken, reach, floor, &mut found)
+                    self.chunk(simd, numbers, &taken, reach, floor, &mut found)
                 });
                 found
             })
@@ -139,164 +139,92 @@ impl<'a> Pool<'a> {
     }
 
     #[inline(always)]
-    fn chunk(&self, numbers: Range<u64>, taken: &Taken, reach: f32, floor: f32, found: &mut Found) {
+    fn chunk<S: Simd>(
+        &self,
+        simd: S,
+        numbers: Range<u64>,
+        taken: &Taken,
+        reach: f32,
+        floor: f32,
+        found: &mut Found,
+    ) {
         let chunk = numbers.start;
         let mut kept = Keeper::new(chunk);
-        let mut leaves = Vec::new();
+        let mut groups = Vec::new();
         let mut places = Places::new();
+        let mut drawn = Vec::with_capacity(ROWS);
         for first in numbers.step_by(BLOCK as usize) {
-            let mut drawn = [const { Cluster::new(0) }; ROWS];
-            let mut bounds = Bounds::EMPTY;
-            for (row, drawn) in drawn.iter_mut().enumerate() {
-                *drawn = self.draw(first + (row * LANES) as u64, chunk, &mut places);
-                bounds = bounds.and(&drawn.bounds);
+            drawn.clear();
+            for row in 0..ROWS {
+                drawn.push(self.draw(simd, first + (row * LANES) as u64, chunk, &mut places));
             }
-            taken.leaves(&bounds, reach, &mut leaves);
+            let bounds = Bounds::around(drawn.iter().map(|cluster: &Cluster| cluster.bounds));
+            taken.groups(&bounds, reach, &mut groups);
             for drawn in &drawn {
-                let near = taken.distances(&leaves, drawn, reach, self.ground);
+                let mut near = Distances::all(simd, f32::INFINITY);
+                for &group in &groups {
+                    for leaf in taken.near(simd, group, &drawn.bounds, reach) {
+                        drawn.learn(&mut near, leaf, reach, self.ground.normals());
+                    }
+                }
                 kept.keep(drawn, &near, floor, self.ground, found);
             }
         }
-        kept.flush(self.ground, found);
+        kept.flush(simd, self.ground, found);
     }
 }
 
-/// Gathers candidates until they fill a cluster.
-struct Keeper {
-    cluster: Cluster,
-    near: Near,
-    len: usize,
-}
-
-impl Keeper {
-    fn new(first: u64) -> Self {
-        Self {
-            cluster: Cluster::new(first),
-            near: Near::all(TAKEN),
-            len: 0,
-        }
-    }
-
-    #[inline(always)]
-    fn keep(
-        &mut self,
-        drawn: &Cluster,
-        near: &Near,
-        floor: f32,
-        ground: &Ground,
-        found: &mut Found,
-    ) {
-        // Which are kept is as good as random: without branches.
-        let (mut lanes, mut count) = ([0u8; LANES], 0);
-        for lane in 0..LANES {
-            lanes[count] = lane as u8;
-            count += (near.distance[lane] >= floor) as usize;
-        }
-        for &lane in &lanes[..count] {
-            self.cluster.copy(self.len, drawn, lane as usize);
-            self.near.distance[self.len] = near.distance[lane as usize];
-            self.len += 1;
-            if self.len == LANES {
-                self.flush(ground, found);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn flush(&mut self, ground: &Ground, found: &mut Found) {
-        if self.len > 0 {
-            self.cluster.close(self.len, ground);
-            found.clusters.push(self.cluster.clone());
-            found.near.push(self.near);
-            (self.near, self.len) = (Near::all(TAKEN), 0);
-        }
-    }
+/// As many lanes as a cluster has.
+#[inline(always)]
+fn front<T>(lanes: &[T]) -> &[T; LANES] {
+    // Rows are written whole, so there are more.
+    lanes.first_chunk().expect("more lanes than a cluster has")
 }
 
 /// The roots of earlier stages.
 struct Taken {
     leaves: Vec<Leaf>,
+    /// Of the leaves, in the same order.
+    boxes: Vec<Boxes>,
+    /// Of the boxes.
     tree: Hierarchy,
 }
 
 impl Taken {
-    fn new(sites: Vec<Site>) -> Self {
-        let leaves: Vec<Leaf> = sites.chunks(LEAF).map(Leaf::new).collect();
-        let bounds = |leaf: &Leaf| Bounds::around(leaf.sites().iter().map(Site::bounds));
+    /// Of roots along the curve.
+    fn new(pool: &Pool, roots: &[Placed]) -> Self {
+        let leaf = |roots: &[Placed]| {
+            let mut leaf = Leaf::EMPTY;
+            roots.iter().for_each(|root| leaf.add(&pool.site(root)));
+            leaf
+        };
+        let leaves: Vec<Leaf> = roots.par_chunks(LEAF).map(leaf).collect();
+        let bounds: Vec<Bounds> = leaves.iter().map(Leaf::bounds).collect();
+        let groups = bounds.chunks(Boxes::MOST);
         Self {
-            tree: Hierarchy::new(leaves.iter().map(bounds)),
+            tree: Hierarchy::new(groups.clone().map(|g| Bounds::around(g.iter().copied()))),
+            boxes: groups.map(|g| Boxes::new(g.iter().copied())).collect(),
             leaves,
         }
     }
 
+    /// Finds the groups of leaves that may be within `reach` of `bounds`.
     #[inline(always)]
-    fn leaves(&self, bounds: &Bounds, reach: f32, leaves: &mut Vec<usize>) {
-        leaves.clear();
-        self.tree.near(bounds, reach, |leaf| leaves.push(leaf));
+    fn groups(&self, bounds: &Bounds, reach: f32, groups: &mut Vec<usize>) {
+        groups.clear();
+        self.tree.near(bounds, reach, |group| groups.push(group));
     }
 
+    /// Those leaves of `group` that may be within `reach` of `bounds`.
     #[inline(always)]
-    fn distances(&self, leaves: &[usize], cluster: &Cluster, reach: f32, ground: &Ground) -> Near {
-        let mut near = Near::all(f32::INFINITY);
-        for &leaf in leaves {
-            if self.tree.leaf(leaf).gap(&cluster.bounds) >= reach {
-                continue;
-            }
-            let leaf = &self.leaves[leaf];
-            let mut sites = leaf.near(&cluster.bounds, reach);
-            while sites != 0 {
-                let site = &leaf.sites[sites.trailing_zeros() as usize];
-                cluster.push(&mut near, site, ground.normals());
-                sites &= sites - 1;
-            }
-        }
-        near
-    }
-}
-
-/// Roots that follow each other along the curve, in a form in which all are compared with
-/// a box at once.
-struct Leaf {
-    sites: [Site; LEAF],
-    len: usize,
-    position: [[f32; LEAF]; 3],
-    closeness: [f32; LEAF],
-}
-
-impl Leaf {
-    /// Of 1 to [`LEAF`] roots.
-    fn new(sites: &[Site]) -> Self {
-        let site = |k: usize| sites[k.min(sites.len() - 1)];
-        Self {
-            sites: std::array::from_fn(site),
-            len: sites.len(),
-            position: [0, 1, 2].map(|axis| std::array::from_fn(|k| site(k).position[axis])),
-            closeness: std::array::from_fn(|k| site(k).closeness),
-        }
-    }
-
-    fn sites(&self) -> &[Site] {
-        &self.sites[..self.len]
-    }
-
-    /// Which roots have a [gap](Bounds::gap) to `bounds` less than `reach`: a bit each.
-    #[inline(always)]
-    fn near(&self, bounds: &Bounds, reach: f32) -> u32 {
-        let mut squares = [0.0; LEAF];
-        for (axis, along) in self.position.iter().enumerate() {
-            let (low, high) = (bounds.low[axis], bounds.high[axis]);
-            for (square, x) in squares.iter_mut().zip(along) {
-                let (above, below) = (x - high, low - x);
-                let apart = if above > below { above } else { below };
-                let apart = if apart > 0.0 { apart } else { 0.0 };
-                *square += apart * apart;
-            }
-        }
-        let mut near = [0; LEAF];
-        for k in 0..LEAF {
-            let gap = squares[k] * (self.closeness[k] * bounds.least);
-            near[k] = ((gap < reach) as u32) << k;
-        }
-        near.into_iter().fold(0, |a, b| a | b) & ((1 << self.len) - 1)
+    fn near<S: Simd>(
+        &self,
+        simd: S,
+        group: usize,
+        bounds: &Bounds,
+        reach: f32,
+    ) -> impl Iterator<Item = &Leaf> {
+        let [near] = self.boxes[group].near(simd, bounds, [reach]);
+        bits(near).map(move |leaf| &self.leaves[group * Boxes::MOST + leaf])
     }
 }

@@ -2,320 +2,249 @@
 //!
 //! A level has a reach, and takes candidates until each is nearer than the reach to a
 //! root. Tiles of clusters are coloured so that neighbours differ; those of one colour
-//! then know nothing of each other and are visited at once, each by one thread that
-//! goes along the curve, where what it needs is near in memory too. A visit to a cluster
-//! first learns what the neighbours took when they were visited last, then takes what it
-//! can, the farthest first. So what comes out is the same for any number of threads.
+//! then know nothing of each other and are visited at once. A visit to a tile first
+//! learns what its neighbours took when they were visited last. Then its clusters take
+//! what they can, one after the other, each the farthest first, and tell the others of
+//! the tile. So what comes out is the same for any number of threads.
 
-use super::cluster::{Cluster, Near, TAKEN};
+use super::cluster::{Cluster, Distances, Near, bits};
 use super::ground::{Ground, Site};
-use super::hierarchy::Hierarchy;
+use super::hierarchy::{Bounds, Boxes, Hierarchy};
+use super::leaf::{LEAF, Leaf};
 use super::pool::Found;
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, Simd, dispatch};
+use pelage_curves::Vec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Clusters of a tile: with all that belongs to them they fit a core's own cache.
-const TILE: usize = 64;
+/// Clusters of a tile: a root is compared with all of them at once, and with all that
+/// belongs to them they fit a core's own cache.
+const TILE: usize = Boxes::MOST;
 
 pub(crate) struct Stage<'a> {
     ground: &'a Ground<'a>,
-    clusters: Vec<&'a Cluster>,
-    neighbours: Neighbours,
-    /// Tiles, colour by colour.
-    order: Vec<u32>,
-    /// Where in `order` each colour is.
+    /// Colour by colour, and along the curve in each.
+    tiles: Vec<Tile<'a>>,
+    /// Where in `tiles` each colour is.
     colours: Vec<Range<usize>>,
-    /// Of the clusters of each tile in `order`.
-    near: Vec<Vec<Near>>,
-    /// Squared reach below which the stage will not go.
-    floor: f32,
-    roots: Vec<Root>,
-    /// Which of the roots each cluster took when it was visited last.
-    fresh: Vec<Range<u32>>,
+    /// Which tiles are near each; both by their places along the curve.
+    neighbours: Vec<Vec<usize>>,
+    /// What each tile took when it was visited last; along the curve.
+    fresh: Vec<Vec<Leaf>>,
+    /// Levels so far.
+    levels: usize,
 }
 
-/// A candidate taken.
-#[derive(Clone, Copy)]
-struct Root {
-    site: Site,
-    number: u64,
-}
+/// A candidate taken: its number, and the level that took it.
+pub(crate) type Taken = (u64, usize);
 
 impl<'a> Stage<'a> {
-    /// Candidates that may come within `reach` (squared) of each other, for levels down
-    /// to `floor`.
-    pub(crate) fn new(ground: &'a Ground<'a>, found: &'a [Found], reach: f32, floor: f32) -> Self {
+    /// Candidates that may come within `reach` (squared) of each other.
+    pub(crate) fn new(ground: &'a Ground<'a>, found: &'a [Found], reach: f32) -> Self {
         let clusters: Vec<&Cluster> = found.iter().flat_map(|f| &f.clusters).collect();
         let near: Vec<&Near> = found.iter().flat_map(|f| &f.near).collect();
-        let neighbours = Neighbours::new(&clusters, reach);
-        let (order, colours) = coloured(&neighbours.of_tiles());
-        let tile = |&tile: &u32| {
-            near[clusters_of(tile, near.len())]
-                .iter()
-                .map(|n| **n)
-                .collect()
-        };
+        let tiles: Vec<Tile> = clusters
+            .par_chunks(TILE)
+            .zip(near.par_chunks(TILE))
+            .enumerate()
+            .map(|(place, (clusters, near))| Tile::new(place, clusters, near))
+            .collect();
+        let neighbours = neighbours(&tiles, reach);
+        let (tiles, colours) = by_colour(tiles, &neighbours);
         Self {
             ground,
-            neighbours,
-            near: order.par_iter().map(tile).collect(),
-            order,
+            fresh: vec![Vec::new(); tiles.len()],
+            tiles,
             colours,
-            floor,
-            roots: Vec::new(),
-            fresh: vec![0..0; clusters.len()],
-            clusters,
+            neighbours,
+            levels: 0,
         }
     }
 
-    /// Takes candidates until each is within `reach`; returns their numbers, ascending.
-    pub(crate) fn level(&mut self, reach: f32) -> Vec<u64> {
+    /// Takes candidates until each is within `reach` of a root, the next level's being
+    /// `next`; returns how many.
+    pub(crate) fn level(&mut self, reach: f32, next: f32) -> usize {
+        let mut count = 0;
+        let visit = Visit {
+            normals: self.ground.normals(),
+            level: self.levels,
+            reach,
+            next,
+        };
         for colour in self.colours.clone() {
-            let order = &self.order[colour.clone()];
-            let mut near = std::mem::take(&mut self.near);
-            let tasks = near[colour].par_iter_mut().zip(order);
-            let taken: Vec<_> = tasks
-                .map(|(near, tile)| self.tile(near, *tile, reach))
-                .collect();
-            self.near = near;
-            for (tile, &number) in taken.into_iter().zip(order) {
-                let shift = self.roots.len() as u32 - tile.base;
-                self.roots.extend(tile.roots);
-                let fresh = &mut self.fresh[clusters_of(number, self.clusters.len())];
-                for (fresh, found) in fresh.iter_mut().zip(tile.fresh) {
-                    *fresh = found.start + shift..found.end + shift;
-                }
-            }
-        }
-        self.fresh_numbers()
-    }
-
-    /// Numbers of what was taken last, ascending.
-    fn fresh_numbers(&self) -> Vec<u64> {
-        let mut numbers = Vec::new();
-        for fresh in &self.fresh {
-            let before = numbers.len();
-            numbers.extend(self.roots_of(fresh).iter().map(|root| root.number));
-            numbers[before..].sort_unstable();
-        }
-        numbers
-    }
-
-    /// Visits the clusters of tile `number`.
-    fn tile(&self, near: &mut [Near], number: u32, reach: f32) -> Tile {
-        let clusters = clusters_of(number, self.clusters.len());
-        let mut tile = Tile {
-            start: clusters.start,
-            fresh: self.fresh[clusters.clone()].to_vec(),
-            base: self.roots.len() as u32,
-            roots: Vec::new(),
-        };
-        dispatch!(Level::new(), simd => {
-            let _ = simd;
-            for (near, cluster) in near.iter_mut().zip(clusters) {
-                self.visit(cluster, near, reach, &mut tile);
-            }
-        });
-        tile
-    }
-
-    #[inline(always)]
-    fn visit(&self, index: usize, near: &mut Near, reach: f32, tile: &mut Tile) {
-        let before = tile.end();
-        if near.most >= self.floor {
-            let cluster = self.clusters[index];
-            self.learn(index, cluster, near, reach, tile);
-            self.take(cluster, near, reach, tile);
-        }
-        tile.fresh[index - tile.start] = before..tile.end();
-    }
-
-    /// Pushes what the neighbours took.
-    #[inline(always)]
-    fn learn(&self, index: usize, cluster: &Cluster, near: &mut Near, reach: f32, tile: &Tile) {
-        for &neighbour in self.neighbours.of(index) {
-            let inside = (neighbour as usize).wrapping_sub(tile.start);
-            let roots = match tile.fresh.get(inside) {
-                Some(fresh) if fresh.start >= tile.base => tile.roots_of(fresh),
-                Some(fresh) => self.roots_of(fresh),
-                None => self.roots_of(&self.fresh[neighbour as usize]),
+            let tiles = &mut self.tiles[colour];
+            let (neighbours, fresh) = (&self.neighbours, &self.fresh);
+            let visit = |tile: &mut Tile| {
+                let around = neighbours[tile.place].iter().flat_map(|&n| &fresh[n]);
+                dispatch!(Level::new(), simd => tile.visit(simd, around, &visit))
             };
-            for root in roots {
-                if root.site.bounds().gap(&cluster.bounds) < reach {
-                    cluster.push(near, &root.site, self.ground.normals());
-                }
+            let taken: Vec<Vec<Leaf>> = tiles.par_iter_mut().map(visit).collect();
+            for (tile, taken) in tiles.iter().zip(taken) {
+                count += taken.iter().map(Leaf::len).sum::<usize>();
+                self.fresh[tile.place] = taken;
             }
         }
+        self.levels += 1;
+        count
     }
 
-    /// Takes what is farther than `reach`.
-    #[inline(always)]
-    fn take(&self, cluster: &Cluster, near: &mut Near, reach: f32, tile: &mut Tile) {
-        let normals = self.ground.normals();
-        loop {
-            let lane = near.farthest();
-            if near.most < reach {
-                return;
-            }
-            let site = cluster.site(lane, normals);
-            let number = cluster.number(lane);
-            tile.roots.push(Root { site, number });
-            cluster.push(near, &site, normals);
-            near.distance[lane] = TAKEN;
-        }
-    }
-
-    #[inline(always)]
-    fn roots_of(&self, range: &Range<u32>) -> &[Root] {
-        &self.roots[range.start as usize..range.end as usize]
-    }
-
-    /// Numbers of all candidates taken, ascending.
-    pub(crate) fn taken(&self) -> Vec<u64> {
-        let mut numbers: Vec<u64> = self.roots.iter().map(|root| root.number).collect();
-        numbers.par_sort_unstable();
-        numbers
+    /// All candidates taken, by their numbers.
+    pub(crate) fn taken(mut self) -> Vec<Taken> {
+        self.tiles
+            .par_iter_mut()
+            .for_each(|tile| tile.taken.sort_unstable());
+        self.tiles.sort_unstable_by_key(|tile| tile.place);
+        let taken = |tile: Tile| tile.taken;
+        self.tiles.into_iter().flat_map(taken).collect()
     }
 }
 
-/// What a tile takes while it is visited.
-struct Tile {
-    /// The first cluster.
-    start: usize,
-    /// As of the stage; what was taken in this visit begins at `base`.
-    fresh: Vec<Range<u32>>,
-    base: u32,
-    roots: Vec<Root>,
+/// What all visits of a level have in common.
+struct Visit<'a> {
+    normals: &'a [Vec3],
+    level: usize,
+    reach: f32,
+    /// Of the next level.
+    next: f32,
 }
 
-impl Tile {
-    #[inline(always)]
-    fn end(&self) -> u32 {
-        self.base + self.roots.len() as u32
-    }
-
-    #[inline(always)]
-    fn roots_of(&self, range: &Range<u32>) -> &[Root] {
-        &self.roots[(range.start - self.base) as usize..(range.end - self.base) as usize]
-    }
+/// Clusters that follow each other.
+struct Tile<'a> {
+    /// Along the curve.
+    place: usize,
+    clusters: Vec<&'a Cluster>,
+    near: Vec<Near>,
+    /// No candidate of each cluster is farther.
+    most: Vec<f32>,
+    boxes: Boxes,
+    bounds: Bounds,
+    taken: Vec<Taken>,
 }
 
-/// Clusters of tile `number`, of `count` in all.
-fn clusters_of(number: u32, count: usize) -> Range<usize> {
-    let start = number as usize * TILE;
-    start..(start + TILE).min(count)
-}
-
-/// Which clusters are near each.
-struct Neighbours {
-    ends: Vec<usize>,
-    list: Vec<u32>,
-}
-
-impl Neighbours {
-    fn new(clusters: &[&Cluster], reach: f32) -> Self {
-        let tree = Hierarchy::new(clusters.iter().map(|c| c.bounds));
-        let tasks: Vec<(Vec<u32>, Vec<usize>)> = clusters
-            .par_chunks(TILE)
-            .enumerate()
-            .map(|(task, clusters)| {
-                let (mut list, mut counts) = (Vec::new(), Vec::new());
-                for (k, cluster) in clusters.iter().enumerate() {
-                    let before = list.len();
-                    tree.near(&cluster.bounds, reach, |other| {
-                        if other != task * TILE + k {
-                            list.push(other as u32);
-                        }
-                    });
-                    counts.push(list.len() - before);
-                }
-                (list, counts)
-            })
-            .collect();
-        let mut end = 0;
-        let counts = tasks.iter().flat_map(|(_, counts)| counts);
+impl<'a> Tile<'a> {
+    fn new(place: usize, clusters: &[&'a Cluster], near: &[&Near]) -> Self {
+        let bounds = || clusters.iter().map(|cluster| cluster.bounds);
         Self {
-            ends: counts
-                .map(|count| {
-                    end += count;
-                    end
-                })
-                .collect(),
-            list: tasks.iter().flat_map(|(list, _)| list).copied().collect(),
+            place,
+            clusters: clusters.to_vec(),
+            near: near.iter().map(|near| **near).collect(),
+            most: vec![f32::INFINITY; clusters.len()],
+            boxes: Boxes::new(bounds()),
+            bounds: Bounds::around(bounds()),
+            taken: Vec::new(),
         }
     }
 
+    /// Whether clusters of both may come within `reach` of each other.
     #[inline(always)]
-    fn of(&self, cluster: usize) -> &[u32] {
-        let start = if cluster == 0 {
-            0
-        } else {
-            self.ends[cluster - 1]
-        };
-        &self.list[start..self.ends[cluster]]
+    fn touches<S: Simd>(&self, simd: S, other: &Tile, reach: f32) -> bool {
+        let near = |c: &&Cluster| other.boxes.near(simd, &c.bounds, [reach]) != [0];
+        self.clusters.iter().any(near)
     }
 
-    /// Which tiles are near each.
-    fn of_tiles(&self) -> Self {
-        let tiles = self.ends.len().div_ceil(TILE);
-        let mut seen = vec![usize::MAX; tiles];
-        let (mut ends, mut list) = (Vec::with_capacity(tiles), Vec::new());
-        for tile in 0..tiles {
-            seen[tile] = tile;
-            for cluster in clusters_of(tile as u32, self.ends.len()) {
-                for &other in self.of(cluster) {
-                    let other = other as usize / TILE;
-                    if seen[other] != tile {
-                        seen[other] = tile;
-                        list.push(other as u32);
-                    }
-                }
+    /// Learns of the roots around, takes what it can, and returns that.
+    #[inline(always)]
+    fn visit<'b, S: Simd>(
+        &mut self,
+        simd: S,
+        around: impl Iterator<Item = &'b Leaf>,
+        visit: &Visit,
+    ) -> Vec<Leaf> {
+        for leaf in around {
+            for root in bits(leaf.near(simd, &self.bounds, visit.reach)) {
+                let site = leaf.site(root % LEAF);
+                let [near] = self.boxes.near(simd, &site.bounds(), [visit.reach]);
+                self.tell(simd, near, &site, visit.normals);
             }
-            ends.push(list.len());
         }
-        Self { ends, list }
+        let mut taken = Vec::new();
+        for cluster in 0..self.clusters.len() {
+            if self.most[cluster] >= visit.reach {
+                self.take(simd, cluster, visit, &mut taken);
+            }
+        }
+        taken
     }
 
-    fn len(&self) -> usize {
-        self.ends.len()
+    /// Takes what is farther than the reach from a cluster, the farthest first.
+    #[inline(always)]
+    fn take<S: Simd>(&mut self, simd: S, index: usize, visit: &Visit, taken: &mut Vec<Leaf>) {
+        let cluster = self.clusters[index];
+        let mut near = Distances::load(simd, &self.near[index]);
+        // Clusters before this one take nothing before the next level.
+        let (own, before) = (1 << index, (1 << index) - 1);
+        self.most[index] = loop {
+            let most = near.most();
+            if most < visit.reach {
+                break most;
+            }
+            let lane = near.lane_of(most);
+            let site = cluster.site(lane, visit.normals);
+            cluster.push(&mut near, &site, visit.normals);
+            near.take(lane);
+            let reaches = [visit.reach, visit.next];
+            let [now, next] = self.boxes.near(simd, &site.bounds(), reaches);
+            let others = (now & !before | next & before) & !own;
+            self.tell(simd, others, &site, visit.normals);
+            self.taken.push((cluster.number(lane), visit.level));
+            match taken.last_mut() {
+                Some(leaf) if !leaf.is_full() => leaf.add(&site),
+                _ => taken.push(Leaf::of(&site)),
+            }
+        };
+        near.store(&mut self.near[index]);
     }
+
+    /// Some clusters, a bit each, learn of a root at `site`.
+    #[inline(always)]
+    fn tell<S: Simd>(&mut self, simd: S, clusters: u64, site: &Site, normals: &[Vec3]) {
+        for cluster in bits(clusters) {
+            let mut near = Distances::load(simd, &self.near[cluster]);
+            self.clusters[cluster].push(&mut near, site, normals);
+            near.store(&mut self.near[cluster]);
+        }
+    }
+}
+
+/// Which tiles have clusters within `reach` of clusters of each.
+fn neighbours(tiles: &[Tile], reach: f32) -> Vec<Vec<usize>> {
+    let tree = Hierarchy::new(tiles.iter().map(|tile| tile.bounds));
+    let around = |tile: &Tile| {
+        let mut found = Vec::new();
+        dispatch!(Level::new(), simd => tree.near(&tile.bounds, reach, |other| {
+            if other != tile.place && tile.touches(simd, &tiles[other], reach) {
+                found.push(other);
+            }
+        }));
+        found
+    };
+    tiles.par_iter().map(around).collect()
 }
 
 /// Gives each tile the first colour that no neighbour before it has; returns the tiles
 /// colour by colour, and where in that order each colour is.
-fn coloured(neighbours: &Neighbours) -> (Vec<u32>, Vec<Range<usize>>) {
-    let mut colour_of: Vec<u32> = Vec::with_capacity(neighbours.len());
-    let mut seen: Vec<usize> = Vec::new();
+fn by_colour<'a>(
+    mut tiles: Vec<Tile<'a>>,
+    neighbours: &[Vec<usize>],
+) -> (Vec<Tile<'a>>, Vec<Range<usize>>) {
+    let mut colour_of: Vec<usize> = Vec::with_capacity(tiles.len());
     let mut counts: Vec<usize> = Vec::new();
-    for tile in 0..neighbours.len() {
-        for &other in neighbours.of(tile) {
-            if let Some(&colour) = colour_of.get(other as usize) {
-                seen[colour as usize] = tile;
-            }
-        }
-        let colour = seen.iter().position(|&by| by != tile);
-        let colour = colour.unwrap_or_else(|| {
-            seen.push(usize::MAX);
-            counts.push(0);
-            counts.len() - 1
-        });
+    for around in neighbours {
+        let is_free = |colour: &usize| {
+            let has = |n: &usize| colour_of.get(*n) == Some(colour);
+            !around.iter().any(has)
+        };
+        let colour = (0..counts.len()).find(is_free).unwrap_or(counts.len());
+        counts.resize(counts.len().max(colour + 1), 0);
         counts[colour] += 1;
-        colour_of.push(colour as u32);
+        colour_of.push(colour);
     }
+    // Keeps the order along the curve.
+    tiles.sort_by_key(|tile| colour_of[tile.place]);
     let mut end = 0;
-    let colours: Vec<Range<usize>> = counts
-        .iter()
-        .map(|count| {
-            end += count;
-            end - count..end
-        })
-        .collect();
-    let mut next: Vec<usize> = colours.iter().map(|c| c.start).collect();
-    let mut order = vec![0; neighbours.len()];
-    for (tile, &colour) in colour_of.iter().enumerate() {
-        order[next[colour as usize]] = tile as u32;
-        next[colour as usize] += 1;
-    }
-    (order, colours)
+    let ends = counts.iter().map(|count| {
+        end += count;
+        end - count..end
+    });
+    (tiles, ends.collect())
 }

@@ -294,5 +294,20 @@ fn the_piece_of_a_root_is_where_it_lies() {
 
 #[test]
 fn lists_merge_in_order() {
-    assert_eq!(merged(&[1, 4, 6], &[2, 3, 9]), [1, 2, 3, 4, 6, 9]);
+    let placed = |fractions: &[u64]| -> Vec<Placed> {
+        let root = Root {
+            piece: 0,
+            triangle: 0,
+            weights: [0.0; 2],
+        };
+        let at = |&fraction: &u64| Placed {
+            fraction,
+            root,
+            position: Vec3::ZERO,
+        };
+        fractions.iter().map(at).collect()
+    };
+    let all = merged(&placed(&[1, 4, 6]), &placed(&[2, 3, 9]));
+    let fractions: Vec<u64> = all.iter().map(|placed| placed.fraction).collect();
+    assert_eq!(fractions, [1, 2, 3, 4, 6, 9]);
 }
