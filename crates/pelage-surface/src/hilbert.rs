@@ -86,11 +86,13 @@ pub(crate) fn along_curve(mesh: &Mesh) -> Vec<u32> {
         let first = row * LANES;
         dispatch!(level, simd => {
             let _ = simd;
-            let centre = |k: usize| {
+            let mut centres = [Vec3::ZERO; LANES];
+            // A closure would be compiled for the oldest processors.
+            for (k, centre) in centres.iter_mut().enumerate() {
                 let [a, b, c] = mesh.corners((first + k).min(count - 1));
-                (a + b + c) / 3.0
-            };
-            let along = hilbert_indices::<LANES>(std::array::from_fn(centre), low, side);
+                *centre = (a + b + c) / 3.0;
+            }
+            let along = hilbert_indices(centres, low, side);
             for (k, word) in words.iter_mut().enumerate() {
                 *word = along[k] >> spare << bits | (first + k) as u64;
             }

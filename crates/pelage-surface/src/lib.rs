@@ -4,6 +4,7 @@
 mod blue_noise;
 mod bulk;
 mod closest;
+mod cut;
 mod density;
 mod displacement;
 mod distribution;
