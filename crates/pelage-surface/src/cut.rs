@@ -24,12 +24,26 @@ pub(crate) struct Cutter<'a, D, N> {
     pub mesh: &'a Mesh,
     pub density: &'a D,
     pub table: &'a Table,
-    pub part_bits: u32,
     /// Densities of the parts of each depth.
     pub levels: [Vec<f32>; MAX_DEPTH as usize + 1],
+    pub found: Found<'a, N>,
+}
+
+/// The pieces of a run, as far as they have been found.
+pub(crate) struct Found<'a, N> {
+    pub part_bits: u32,
     pub names: &'a mut [N],
     pub before: &'a mut [u64],
     pub run: Run,
+}
+
+/// What is known of a triangle of few parts.
+#[derive(Clone, Copy)]
+struct Shallow {
+    /// At the centres of the parts.
+    densities: [f32; FEW],
+    /// Whether four parts are of one density.
+    merges: bool,
 }
 
 impl<D: DensityField, N: Name> Cutter<'_, D, N> {
@@ -51,10 +65,14 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
         }
     }
 
-    /// The densities at the centres of the parts of each of `triangles`, if they are few.
+    /// What there is to know of those of `triangles` that are cut into few parts.
     #[inline(always)]
-    fn read_shallow(&self, triangles: &[u32], depths: &[u8]) -> Vec<[f32; FEW]> {
-        let mut densities = vec![[0.0; FEW]; triangles.len()];
+    fn read_shallow(&self, triangles: &[u32], depths: &[u8]) -> Vec<Shallow> {
+        let none = Shallow {
+            densities: [0.0; FEW],
+            merges: false,
+        };
+        let mut shallow = vec![none; triangles.len()];
         let mut equal = Vec::with_capacity(triangles.len());
         for depth in 0..=SHALLOW {
             equal.clear();
@@ -64,49 +82,64 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
                 }
             }
             for lanes in equal.chunks(LANES) {
-                let mut corners = Corners::splat(uvs(self.mesh, triangles[lanes[0]]));
-                for (lane, &k) in lanes.iter().enumerate() {
-                    corners.set(lane, uvs(self.mesh, triangles[k]));
-                }
-                let centres = self.table.centres(depth);
-                let mut rows: [Row; FEW] = [[0.0; LANES]; FEW];
-                self.density
-                    .read_all(&corners, centres, &mut rows[..centres.len()]);
-                for (lane, &k) in lanes.iter().enumerate() {
-                    for (density, row) in densities[k].iter_mut().zip(&rows) {
-                        *density = row[lane];
-                    }
-                }
+                self.read_lanes(triangles, depth, lanes, &mut shallow);
             }
         }
-        densities
+        shallow
+    }
+
+    /// The same for the few of `triangles` that have the indices `lanes`, all of one depth.
+    #[inline(always)]
+    fn read_lanes(&self, triangles: &[u32], depth: u32, lanes: &[usize], shallow: &mut [Shallow]) {
+        let mut corners = Corners::splat(uvs(self.mesh, triangles[lanes[0]]));
+        for (lane, &k) in lanes.iter().enumerate() {
+            corners.set(lane, uvs(self.mesh, triangles[k]));
+        }
+        let centres = self.table.centres(depth);
+        let mut rows: [Row; FEW] = [[0.0; LANES]; FEW];
+        let read = &mut rows[..centres.len()];
+        self.density.read_all(&corners, centres, read);
+        let mut merges = [false; LANES];
+        for four in read.as_chunks_mut::<4>().0 {
+            for lane in 0..LANES {
+                let [a, b, c, d] = four.each_mut().map(|row| &mut row[lane]);
+                (*a, *b, *c, *d) = (sound(*a), sound(*b), sound(*c), sound(*d));
+                merges[lane] |= (a == b) & (a == c) & (a == d);
+            }
+        }
+        for (lane, &k) in lanes.iter().enumerate() {
+            for (density, row) in shallow[k].densities.iter_mut().zip(&rows) {
+                *density = row[lane];
+            }
+            shallow[k].merges = merges[lane];
+        }
     }
 
     #[inline(always)]
-    fn cut_one(&mut self, triangle: u32, depth: u32, area: f64, shallow: &[f32; FEW]) {
-        match depth {
-            0..=SHALLOW => {
-                let level = &mut self.levels[depth as usize];
-                level.clear();
-                level.extend_from_slice(&shallow[..1 << (2 * depth)]);
+    fn cut_one(&mut self, triangle: u32, depth: u32, area: f64, shallow: &Shallow) {
+        let weight = area * self.density.value() as f64;
+        if depth <= SHALLOW {
+            let densities = &shallow.densities[..1 << (2 * depth)];
+            if !shallow.merges {
+                return self.found.add_all(triangle, depth, densities, weight);
             }
-            _ => self.read(triangle, depth),
-        }
-        // What is less than nothing, or no number, is nothing too.
-        for density in &mut self.levels[depth as usize] {
-            *density = density.max(0.0);
+            let level = &mut self.levels[depth as usize];
+            level.clear();
+            level.extend_from_slice(densities);
+        } else {
+            self.read(triangle, depth);
         }
         let uncut = (0..depth)
             .rev()
             .find(|&d| !self.merge(d))
             .map_or(0, |d| d + 1);
-        let weight = area * self.density.value() as f64;
         if uncut == depth {
-            self.add_all(triangle, depth, weight);
+            let densities = &self.levels[depth as usize];
+            self.found.add_all(triangle, depth, densities, weight);
         } else {
             // The parts above are all mixed.
             for part in 0..1 << (2 * uncut) {
-                self.add(triangle, uncut, part, weight);
+                self.found.add(&self.levels, triangle, uncut, part, weight);
             }
         }
     }
@@ -125,6 +158,9 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
             let centres = self.table.centres(within);
             self.density.read(corners, centres, level);
         }
+        for density in level {
+            *density = sound(*density);
+        }
     }
 
     /// Gives the parts of depth `depth` the density that their four parts share, and
@@ -142,14 +178,16 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
         }
         merged
     }
+}
 
+impl<N: Name> Found<'_, N> {
     /// Adds all parts of depth `depth` that have a density.
     #[inline(always)]
-    fn add_all(&mut self, triangle: u32, depth: u32, weight: f64) {
+    fn add_all(&mut self, triangle: u32, depth: u32, densities: &[f32], weight: f64) {
         let share = weight / (1u64 << (2 * depth)) as f64;
         let first = first_part(depth) as u32;
         let Run { mut len, mut sum } = self.run;
-        for (i, &density) in self.levels[depth as usize].iter().enumerate() {
+        for (i, &density) in densities.iter().enumerate() {
             // Overwritten where it does not count.
             self.names[len] = N::new(triangle, first + i as u32, self.part_bits);
             self.before[len] = sum.to_bits();
@@ -160,12 +198,13 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
         self.run = Run { len, sum };
     }
 
-    /// Adds the largest parts of one density in part `i` of depth `d`.
-    fn add(&mut self, triangle: u32, d: u32, i: usize, weight: f64) {
-        let density = self.levels[d as usize][i];
+    /// Adds the largest parts of one density in part `i` of depth `d`, of the densities
+    /// `levels`.
+    fn add(&mut self, levels: &[Vec<f32>], triangle: u32, d: u32, i: usize, weight: f64) {
+        let density = levels[d as usize][i];
         if density.is_nan() {
             for child in 4 * i..4 * i + 4 {
-                self.add(triangle, d + 1, child, weight);
+                self.add(levels, triangle, d + 1, child, weight);
             }
             return;
         }
@@ -178,4 +217,10 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
             self.run.sum += weight;
         }
     }
+}
+
+/// A density; what is less than nothing, or no number, is nothing too.
+#[inline(always)]
+fn sound(density: f32) -> f32 {
+    density.max(0.0)
 }

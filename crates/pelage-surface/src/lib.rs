@@ -1,6 +1,7 @@
 //! Surfaces that grow hair: triangle meshes at rest and posed, image maps, places
 //! on a surface, and roots sampled by density.
 
+mod along;
 mod blue_noise;
 mod bulk;
 mod closest;

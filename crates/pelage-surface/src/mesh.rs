@@ -271,15 +271,22 @@ impl Mesh {
         area(self.corners(triangle))
     }
 
-    /// [`area`](Self::area) of many triangles: the arithmetic runs at once.
+    /// [`corners`](Self::corners) of many triangles: of each corner all x, all y, all z.
     #[inline(always)]
-    pub(crate) fn areas<const N: usize>(&self, triangles: &[u32; N]) -> [f64; N] {
+    pub(crate) fn all_corners<const N: usize>(&self, triangles: &[u32; N]) -> [[[f32; N]; 3]; 3] {
         let mut corners = [[[0.0; N]; 3]; 3];
         for (k, &triangle) in triangles.iter().enumerate() {
             for (corner, position) in corners.iter_mut().zip(self.corners(triangle as usize)) {
                 [corner[0][k], corner[1][k], corner[2][k]] = position.to_array();
             }
         }
+        corners
+    }
+
+    /// [`area`](Self::area) of many triangles: the arithmetic runs at once.
+    #[inline(always)]
+    pub(crate) fn areas<const N: usize>(&self, triangles: &[u32; N]) -> [f64; N] {
+        let corners = self.all_corners(triangles);
         let mut areas = [0.0; N];
         for (k, area_of) in areas.iter_mut().enumerate() {
             *area_of = area(
@@ -293,14 +300,16 @@ impl Mesh {
 
     /// Smallest and largest coordinates of the vertices that triangles use.
     pub fn bounds(&self) -> (Vec3, Vec3) {
-        let used = self
-            .triangles
-            .iter()
-            .flatten()
-            .map(|&v| self.positions[v as usize]);
-        used.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), p| {
-            (lo.min(p), hi.max(p))
-        })
+        // Each corner by itself, so that one comparison does not wait for the one before.
+        let mut bounds = [(Vec3::INFINITY, Vec3::NEG_INFINITY); 3];
+        for corners in &self.triangles {
+            for ((low, high), &vertex) in bounds.iter_mut().zip(corners) {
+                let position = self.positions[vertex as usize];
+                (*low, *high) = (low.min(position), high.max(position));
+            }
+        }
+        let [a, b, c] = bounds;
+        (a.0.min(b.0).min(c.0), a.1.max(b.1).max(c.1))
     }
 }
 

@@ -6,9 +6,9 @@
 //! a Hilbert curve through the rest pose, so that the stratification of the first
 //! number becomes one in space, and a region becomes a few intervals of it.
 
+use crate::along::along_curve;
 use crate::density::{Density, DensityField};
 use crate::distribution::Distribution;
-use crate::hilbert::along_curve;
 use crate::neighbours::Found;
 use crate::part::Part;
 use crate::pieces::Pieces;

@@ -10,10 +10,11 @@
 //! close up.
 
 use crate::Mesh;
-use crate::cut::Cutter;
+use crate::cut::{Cutter, Found};
 use crate::density::DensityField;
 use crate::part::{MAX_DEPTH, Table};
 use crate::sums::{PADDING, Run, Sums, divide};
+use crate::window::{Corners, LANES};
 use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec2;
 use rayon::prelude::*;
@@ -87,10 +88,21 @@ pub(crate) struct Plan<'a, D> {
 
 impl<'a, D: DensityField> Plan<'a, D> {
     pub(crate) fn new(mesh: &'a Mesh, order: &'a [u32], density: &'a D) -> Self {
-        let depth = |&triangle: &u32| {
-            let uv = uvs(mesh, triangle);
-            density.texels(uv).map_or(0, |size| depth_for(uv, size))
-        };
+        // In the order of the mesh the texture coordinates are read one after the other.
+        let mut of_mesh = vec![0; order.len()];
+        let level = Level::new();
+        let runs = of_mesh.par_chunks_mut(RUN).enumerate();
+        runs.for_each(|(run, depths)| {
+            dispatch!(level, simd => {
+                let _ = simd;
+                for (row, depths) in depths.chunks_mut(LANES).enumerate() {
+                    let first = run * RUN + row * LANES;
+                    let all = depths_from(mesh, density, first);
+                    depths.copy_from_slice(&all[..depths.len()]);
+                }
+            })
+        });
+        let depth = |&triangle: &u32| of_mesh[triangle as usize];
         Self {
             mesh,
             density,
@@ -149,11 +161,13 @@ impl<'a, D: DensityField> Plan<'a, D> {
                     mesh: self.mesh,
                     density: self.density,
                     table: &table,
-                    part_bits,
                     levels: [const { Vec::new() }; MAX_DEPTH as usize + 1],
-                    names,
-                    before,
-                    run: Run { len: 0, sum: 0.0 },
+                    found: Found {
+                        part_bits,
+                        names,
+                        before,
+                        run: Run { len: 0, sum: 0.0 },
+                    },
                 };
                 let range = || stretch.triangles.clone();
                 let (triangles, depths) = (&self.order[range()], &self.depths[range()]);
@@ -161,7 +175,7 @@ impl<'a, D: DensityField> Plan<'a, D> {
                     let _ = simd;
                     cutter.cut(triangles, depths);
                 });
-                cutter.run
+                cutter.found.run
             })
             .collect();
         close_up(&mut names, rooms(), &runs);
@@ -217,19 +231,44 @@ pub(crate) fn uvs(mesh: &Mesh, triangle: u32) -> [Vec2; 3] {
 /// texture are resolved along their length too.
 const LONGEST: f32 = 4.0;
 
-/// Least depth at which a part covers at most one texel (document 004, eq. 2.3).
+/// Depths of [`LANES`] triangles from `first` on; of the last where there are fewer.
 #[inline(always)]
-fn depth_for(uv: [Vec2; 3], [width, height]: [u32; 2]) -> u8 {
-    let texel = |p: Vec2| p * Vec2::new(width as f32, height as f32);
-    let [a, b, c] = uv.map(texel);
+fn depths_from(mesh: &Mesh, density: &impl DensityField, first: usize) -> [u8; LANES] {
+    let last = mesh.triangles().len() - 1;
+    let (mut areas, mut lengths) = ([0.0; LANES], [0.0; LANES]);
+    let mut corners = Corners::default();
+    let mut sizes = [[0.0; LANES]; 2];
+    for lane in 0..LANES {
+        let uv = uvs(mesh, (first + lane).min(last) as u32);
+        // A triangle of one density is one without texels.
+        let [width, height] = density.texels(uv).unwrap_or([0; 2]);
+        (sizes[0][lane], sizes[1][lane]) = (width as f32, height as f32);
+        corners.set(lane, uv);
+    }
+    for lane in 0..LANES {
+        let size = Vec2::new(sizes[0][lane], sizes[1][lane]);
+        (areas[lane], lengths[lane]) = extent(corners.get(lane), size);
+    }
+    let mut depths = [0; LANES];
+    for depth in 0..MAX_DEPTH {
+        let side = (1u32 << depth) as f32;
+        for lane in 0..LANES {
+            // Whatever fits a depth fits those below; what is no number fits none.
+            let fits = (areas[lane] <= side * side) & (lengths[lane] <= LONGEST * side);
+            depths[lane] += !fits as u8;
+        }
+    }
+    depths
+}
+
+/// Area and longest side, in texels, of a triangle of a map of `size` texels. It is to be cut
+/// until a part covers at most one texel (document 004, eq. 2.3) and is not too long.
+#[inline(always)]
+fn extent(uv: [Vec2; 3], size: Vec2) -> (f32, f32) {
+    let [a, b, c] = uv.map(|p| p * size);
     let area = (b - a).perp_dot(c - a).abs() / 2.0;
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-    let depths = 0..MAX_DEPTH as u8;
-    let fits = |d: &u8| {
-        let side = (1u32 << d) as f32;
-        area <= side * side && longest <= LONGEST * side
-    };
-    depths.into_iter().find(fits).unwrap_or(MAX_DEPTH as u8)
+    (area, longest)
 }
 
 #[cfg(test)]

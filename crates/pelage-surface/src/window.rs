@@ -192,9 +192,13 @@ impl<T: Numbers> Around<T> {
         let stride = image.width() as usize * channels;
         // All of one length: one test tells for the four whether there is a number.
         let len = numbers.count() - stride - channels - channel;
-        let starts = [0, channels, stride, stride + channels];
         Self {
-            numbers: starts.map(|start| numbers.part(channel + start, len)),
+            numbers: [
+                numbers.part(channel, len),
+                numbers.part(channel + channels, len),
+                numbers.part(channel + stride, len),
+                numbers.part(channel + stride + channels, len),
+            ],
             channels: channels as u32,
             stride: stride as u32,
         }
@@ -218,11 +222,13 @@ impl Windows {
             first[k] = row as u32 * texels.stride + column as u32 * texels.channels;
         }
         let mut around = [[0.0; LANES]; 4];
+        let [own, right, below, below_right] = texels.numbers;
         for k in 0..LANES {
             let at = self.starts[k] + first[k] as usize;
-            for (row, numbers) in around.iter_mut().zip(texels.numbers) {
-                row[k] = numbers.number(at);
-            }
+            around[3][k] = below_right.number(at);
+            around[0][k] = own.number(at);
+            around[1][k] = right.number(at);
+            around[2][k] = below.number(at);
         }
         for k in 0..LANES {
             values[k] = bilinear(around.each_ref().map(|row| row[k]), across[k], down[k]);
