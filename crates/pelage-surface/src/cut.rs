@@ -99,11 +99,13 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
         let mut rows: [Row; FEW] = [[0.0; LANES]; FEW];
         let read = &mut rows[..centres.len()];
         self.density.read_all(&corners, centres, read);
+        for density in read.iter_mut().flatten() {
+            *density = sound(*density);
+        }
         let mut merges = [false; LANES];
-        for four in read.as_chunks_mut::<4>().0 {
+        for [a, b, c, d] in read.as_chunks().0 {
             for lane in 0..LANES {
-                let [a, b, c, d] = four.each_mut().map(|row| &mut row[lane]);
-                (*a, *b, *c, *d) = (sound(*a), sound(*b), sound(*c), sound(*d));
+                let [a, b, c, d] = [a[lane], b[lane], c[lane], d[lane]];
                 merges[lane] |= (a == b) & (a == c) & (a == d);
             }
         }
