@@ -74,9 +74,9 @@ fn place(mesh: &Mesh, (low, high): (Vec3, Vec3), first: usize, indices: &mut [u6
     let side = (high - low).max_element().max(f32::MIN_POSITIVE);
     let last = mesh.triangles().len() - 1;
     for (row, indices) in indices.chunks_mut(LANES).enumerate() {
-        let mut triangles = [0; LANES];
+        let mut triangles = [[0; 3]; LANES];
         for (k, triangle) in triangles.iter_mut().enumerate() {
-            *triangle = (first + row * LANES + k).min(last) as u32;
+            *triangle = mesh.triangles()[(first + row * LANES + k).min(last)];
         }
         let [a, b, c] = mesh.all_corners(&triangles);
         let mut centres = [[0.0; LANES]; 3];

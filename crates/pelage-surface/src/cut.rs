@@ -9,6 +9,7 @@ use crate::part::{MAX_DEPTH, TABLE_DEPTH, Table, first_part};
 use crate::subdivide::{Name, uvs};
 use crate::sums::Run;
 use crate::window::{Corners, LANES, Row, place};
+use pelage_curves::Vec2;
 
 /// Depth to which triangles are read side by side.
 const SHALLOW: u32 = 2;
@@ -50,13 +51,23 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
     /// Cuts `triangles`, each as often as `depths` tells.
     #[inline(always)]
     pub(crate) fn cut(&mut self, triangles: &[u32], depths: &[u8]) {
-        let shallow = self.read_shallow(triangles, depths);
-        for first in (0..triangles.len()).step_by(LANES) {
-            let last = (first + LANES).min(triangles.len());
-            let mut block = [triangles[first]; LANES];
-            block[..last - first].copy_from_slice(&triangles[first..last]);
+        // Triangles along the curve lie far apart in memory. With nothing to do between two
+        // readings, processors wait for many at once.
+        let mut corners = vec![[Vec2::ZERO; 3]; triangles.len()];
+        for (corners, &triangle) in corners.iter_mut().zip(triangles) {
+            *corners = uvs(self.mesh, triangle);
+        }
+        let mut vertices = vec![[0; 3]; triangles.len()];
+        for (vertices, &triangle) in vertices.iter_mut().zip(triangles) {
+            *vertices = self.mesh.triangles()[triangle as usize];
+        }
+        let shallow = self.read_shallow(&corners, depths);
+        for (row, vertices) in vertices.chunks(LANES).enumerate() {
+            let mut block = [vertices[0]; LANES];
+            block[..vertices.len()].copy_from_slice(vertices);
             let areas = self.mesh.areas(&block);
-            for (k, area) in (first..last).zip(areas) {
+            for (k, &area) in areas[..vertices.len()].iter().enumerate() {
+                let k = row * LANES + k;
                 // A NaN has no area either.
                 if area > 0.0 && area.is_finite() {
                     self.cut_one(triangles[k], depths[k] as u32, area, &shallow[k]);
@@ -65,9 +76,10 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
         }
     }
 
-    /// What there is to know of those of `triangles` that are cut into few parts.
+    /// What there is to know of those of `triangles` of texture space that are cut into few
+    /// parts.
     #[inline(always)]
-    fn read_shallow(&self, triangles: &[u32], depths: &[u8]) -> Vec<Shallow> {
+    fn read_shallow(&self, triangles: &[[Vec2; 3]], depths: &[u8]) -> Vec<Shallow> {
         let none = Shallow {
             densities: [0.0; FEW],
             merges: false,
@@ -90,10 +102,16 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
 
     /// The same for the few of `triangles` that have the indices `lanes`, all of one depth.
     #[inline(always)]
-    fn read_lanes(&self, triangles: &[u32], depth: u32, lanes: &[usize], shallow: &mut [Shallow]) {
-        let mut corners = Corners::splat(uvs(self.mesh, triangles[lanes[0]]));
+    fn read_lanes(
+        &self,
+        triangles: &[[Vec2; 3]],
+        depth: u32,
+        lanes: &[usize],
+        shallow: &mut [Shallow],
+    ) {
+        let mut corners = Corners::splat(triangles[lanes[0]]);
         for (lane, &k) in lanes.iter().enumerate() {
-            corners.set(lane, uvs(self.mesh, triangles[k]));
+            corners.set(lane, triangles[k]);
         }
         let centres = self.table.centres(depth);
         let mut rows: [Row; FEW] = [[0.0; LANES]; FEW];
@@ -110,7 +128,7 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
             }
         }
         for (lane, &k) in lanes.iter().enumerate() {
-            for (density, row) in shallow[k].densities.iter_mut().zip(&rows) {
+            for (density, row) in shallow[k].densities.iter_mut().zip(&*read) {
                 *density = row[lane];
             }
             shallow[k].merges = merges[lane];

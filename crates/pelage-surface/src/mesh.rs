@@ -271,29 +271,31 @@ impl Mesh {
         area(self.corners(triangle))
     }
 
-    /// [`corners`](Self::corners) of many triangles: of each corner all x, all y, all z.
+    /// [`corners`](Self::corners) of many triangles with the vertices `triangles`: of each
+    /// corner all x, all y, all z.
     #[inline(always)]
-    pub(crate) fn all_corners<const N: usize>(&self, triangles: &[u32; N]) -> [[[f32; N]; 3]; 3] {
+    pub(crate) fn all_corners<const N: usize>(
+        &self,
+        triangles: &[[u32; 3]; N],
+    ) -> [[[f32; N]; 3]; 3] {
         let mut corners = [[[0.0; N]; 3]; 3];
-        for (k, &triangle) in triangles.iter().enumerate() {
-            for (corner, position) in corners.iter_mut().zip(self.corners(triangle as usize)) {
-                [corner[0][k], corner[1][k], corner[2][k]] = position.to_array();
+        for (k, vertices) in triangles.iter().enumerate() {
+            for ([x, y, z], &vertex) in corners.iter_mut().zip(vertices) {
+                [x[k], y[k], z[k]] = self.positions[vertex as usize].to_array();
             }
         }
         corners
     }
 
-    /// [`area`](Self::area) of many triangles: the arithmetic runs at once.
+    /// [`area`](Self::area) of many triangles with the vertices `triangles`: the arithmetic
+    /// runs at once.
     #[inline(always)]
-    pub(crate) fn areas<const N: usize>(&self, triangles: &[u32; N]) -> [f64; N] {
+    pub(crate) fn areas<const N: usize>(&self, triangles: &[[u32; 3]; N]) -> [f64; N] {
         let corners = self.all_corners(triangles);
         let mut areas = [0.0; N];
-        for (k, area_of) in areas.iter_mut().enumerate() {
-            *area_of = area(
-                corners
-                    .each_ref()
-                    .map(|[x, y, z]| Vec3::new(x[k], y[k], z[k])),
-            );
+        for (k, one) in areas.iter_mut().enumerate() {
+            let [a, b, c] = &corners;
+            *one = area([a, b, c].map(|[x, y, z]| Vec3::new(x[k], y[k], z[k])));
         }
         areas
     }
