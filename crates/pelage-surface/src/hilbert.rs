@@ -24,7 +24,7 @@ pub(crate) fn hilbert_indices<const N: usize>(
 ) -> [u64; N] {
     let cells = (1u32 << BITS) as f32;
     // By way of i32, which processors make of many floats at once.
-    let cell = |x: f32| ((x / side * cells) as i32).max(0).min((1 << BITS) - 1) as u32;
+    let cell = |x: f32| ((x / side * cells) as i32).clamp(0, (1 << BITS) - 1) as u32;
     let mut axes = [[0; N]; 3];
     for (i, low) in low.to_array().into_iter().enumerate() {
         for k in 0..N {

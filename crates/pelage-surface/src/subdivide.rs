@@ -237,16 +237,15 @@ fn depths_from(mesh: &Mesh, density: &impl DensityField, first: usize) -> [u8; L
     let last = mesh.triangles().len() - 1;
     let (mut areas, mut lengths) = ([0.0; LANES], [0.0; LANES]);
     let mut corners = Corners::default();
-    let mut sizes = [[0.0; LANES]; 2];
-    for lane in 0..LANES {
+    let mut sizes = [Vec2::ZERO; LANES];
+    for (lane, size) in sizes.iter_mut().enumerate() {
         let uv = uvs(mesh, (first + lane).min(last) as u32);
         // A triangle of one density is one without texels.
         let [width, height] = density.texels(uv).unwrap_or([0; 2]);
-        (sizes[0][lane], sizes[1][lane]) = (width as f32, height as f32);
+        *size = Vec2::new(width as f32, height as f32);
         corners.set(lane, uv);
     }
-    for lane in 0..LANES {
-        let size = Vec2::new(sizes[0][lane], sizes[1][lane]);
+    for (lane, size) in sizes.into_iter().enumerate() {
         (areas[lane], lengths[lane]) = extent(corners.get(lane), size);
     }
     let mut depths = [0; LANES];
@@ -295,5 +294,26 @@ mod tests {
         let rooms = [3, 3, 3];
         close_up(&mut all, rooms.into_iter(), &[run(2), run(1), run(3)]);
         assert_eq!(all, [1, 2, 3, 4, 5, 6]);
+    }
+
+    #[test]
+    fn a_triangle_is_cut_until_a_part_covers_a_texel_and_no_further() {
+        use crate::{ImageMap, Wrap, fixture::sheet};
+        let mesh = sheet(5);
+        for size in [1, 4, 5, 6, 40, 300] {
+            let texels = vec![0u8; (size * size) as usize];
+            let map = ImageMap::new(size, size, 1, texels, true).unwrap();
+            let density = crate::Density {
+                value: 1.0,
+                map: Some((&map, 0, Wrap::Repeat)),
+            };
+            // A square of the sheet has two triangles.
+            let texels = (size * size) as f32 / 25.0 / 2.0;
+            for depth in depths_from(&mesh, &density, 0) {
+                let of_depth = |depth: u8| texels / (1u32 << (2 * depth)) as f32;
+                assert!(of_depth(depth) <= 1.0 + 1e-4, "{size}");
+                assert!(depth == 0 || of_depth(depth - 1) > 1.0 - 1e-4, "{size}");
+            }
+        }
     }
 }

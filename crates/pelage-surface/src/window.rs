@@ -112,50 +112,33 @@ impl ImageMap {
     /// The texels around triangles.
     #[inline(always)]
     fn windows(&self, corners: &Corners, wrap: Wrap) -> Windows {
-        let mut windows = Windows::default();
         let mut texels = [[[0.0; LANES]; 2]; 3];
         for (texels, [us, vs]) in texels.iter_mut().zip(&corners.0) {
             for k in 0..LANES {
                 [texels[0][k], texels[1][k]] = self.texels_at([us[k], vs[k]]);
             }
         }
+        let mut windows = Windows {
+            fits: [true; LANES],
+            ..Windows::default()
+        };
         let channels = self.channels() as usize;
         let strides = [channels, self.width() as usize * channels];
-        let mut fits = [true; LANES];
-        for axis in 0..2 {
-            let size = [self.width(), self.height()][axis];
-            let [a, b, c] = [0, 1, 2].map(|corner| texels[corner][axis]);
-            let (mut base, mut span) = ([0.0; LANES], [0.0; LANES]);
-            let mut inside = true;
-            for k in 0..LANES {
-                base[k] = a[k].min(b[k]).min(c[k]).floor();
-                span[k] = a[k].max(b[k]).max(c[k]).floor() - base[k];
-                inside &= (base[k] >= 0.0) & (base[k] + span[k] + 1.0 < size as f64);
-            }
-            let mut first = base.map(|x| x as i32 as u32);
-            // Inside, nothing wraps.
-            if !inside {
-                for k in 0..LANES {
-                    first[k] = wrapped(base[k], size, wrap);
-                    // In the mirrored tiles texels run the other way.
-                    let same = wrapped(base[k] + span[k] + 1.0, size, wrap);
-                    fits[k] &= span[k] < size as f64 && same == first[k] + span[k] as u32 + 1;
-                }
-            }
-            for k in 0..LANES {
-                windows.starts[k] += first[k] as usize * strides[axis];
-                windows.last[axis][k] = span[k] as i32;
-                for (inside, texels) in windows.corners.0.iter_mut().zip(&texels) {
-                    inside[axis][k] = (texels[axis][k] - base[k]) as f32;
-                }
-            }
+        for (axis, size) in [self.width(), self.height()].into_iter().enumerate() {
+            let [a, b, c] = &texels;
+            windows.set(
+                [&a[axis], &b[axis], &c[axis]],
+                axis,
+                (size, strides[axis]),
+                wrap,
+            );
         }
         for k in 0..LANES {
-            if !fits[k] {
-                (windows.starts[k], windows.last[0][k], windows.last[1][k]) = (0, 0, 0);
+            if !windows.fits[k] {
+                windows.starts[k] = 0;
+                [windows.last[0][k], windows.last[1][k]] = [0; 2];
             }
         }
-        windows.fits = fits;
         windows
     }
 }
@@ -206,6 +189,43 @@ impl<T: Numbers> Around<T> {
 }
 
 impl Windows {
+    /// Takes one axis of corners, in texels, of an image that has `size` texels along it, whose
+    /// numbers are `stride` apart.
+    #[inline(always)]
+    fn set(
+        &mut self,
+        texels: [&[f64; LANES]; 3],
+        axis: usize,
+        (size, stride): (u32, usize),
+        wrap: Wrap,
+    ) {
+        let [a, b, c] = texels;
+        let (mut base, mut span) = ([0.0; LANES], [0.0; LANES]);
+        let mut inside = true;
+        for k in 0..LANES {
+            base[k] = a[k].min(b[k]).min(c[k]).floor();
+            span[k] = a[k].max(b[k]).max(c[k]).floor() - base[k];
+            inside &= (base[k] >= 0.0) & (base[k] + span[k] + 1.0 < size as f64);
+        }
+        let mut first = base.map(|x| x as i32 as u32);
+        // Inside, nothing wraps.
+        if !inside {
+            for k in 0..LANES {
+                first[k] = wrapped(base[k], size, wrap);
+                // In the mirrored tiles texels run the other way.
+                let same = wrapped(base[k] + span[k] + 1.0, size, wrap);
+                self.fits[k] &= span[k] < size as f64 && same == first[k] + span[k] as u32 + 1;
+            }
+        }
+        for k in 0..LANES {
+            self.starts[k] += first[k] as usize * stride;
+            self.last[axis][k] = span[k] as i32;
+            for (inside, texels) in self.corners.0.iter_mut().zip(texels) {
+                inside[axis][k] = (texels[k] - base[k]) as f32;
+            }
+        }
+    }
+
     /// Bilinear values at one place of each triangle, where the second and third corner have
     /// the weights `us` and `vs`.
     #[inline(always)]
@@ -263,6 +283,30 @@ mod tests {
                     let expected = map.sample(at.x, at.y, 0, wrap);
                     // Texels go up to 10, over 1/64.
                     prop_assert!((value - expected).abs() < 0.01, "{wrap:?} {at} {value} {expected}");
+                }
+            }
+        }
+
+        #[test]
+        fn triangles_side_by_side_read_as_each_alone(
+            first in prop::array::uniform16(prop::array::uniform2(-1.5f32..2.5)),
+            others in prop::array::uniform16(prop::array::uniform2(prop::array::uniform2(-0.1f32..0.1))),
+            weights in prop::collection::vec(prop::array::uniform2(0.0f32..0.5), 1..17),
+        ) {
+            let map = spots();
+            let (mut corners, mut triangles) = (Corners::default(), Vec::new());
+            for (lane, (first, others)) in first.into_iter().zip(others).enumerate() {
+                let [a, b] = others.map(|apart| Vec2::from(first) + Vec2::from(apart));
+                corners.set(lane, [first.into(), a, b]);
+                triangles.push(corners.get(lane));
+            }
+            for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
+                let mut rows = vec![[0.0; LANES]; weights.len()];
+                map.sample_triangles(&corners, &weights, 0, wrap, &mut rows);
+                for (lane, &triangle) in triangles.iter().enumerate() {
+                    let mut alone = vec![0.0; weights.len()];
+                    map.sample_triangle(triangle, &weights, 0, wrap, &mut alone);
+                    prop_assert!(alone.iter().zip(&rows).all(|(value, row)| *value == row[lane]));
                 }
             }
         }
