@@ -1,6 +1,6 @@
 //! How dense hair grows, as cutting triangles asks.
 
-use crate::window::place;
+use crate::window::{Corners, LANES, Row, place};
 use crate::{ImageMap, Wrap};
 use pelage_curves::Vec2;
 
@@ -33,6 +33,17 @@ pub(crate) trait DensityField: Sync {
             *value = self.at(place(corners, weights));
         }
     }
+
+    /// The same in triangles side by side: for each of `weights` a row of what is there in
+    /// each.
+    #[inline(always)]
+    fn read_all(&self, corners: &Corners, weights: &[[f32; 2]], values: &mut [Row]) {
+        for (row, &weights) in values.iter_mut().zip(weights) {
+            for (lane, value) in row.iter_mut().enumerate() {
+                *value = self.at(place(corners.get(lane), weights));
+            }
+        }
+    }
 }
 
 impl DensityField for Density<'_> {
@@ -59,6 +70,15 @@ impl DensityField for Density<'_> {
                 map.sample_triangle(corners, weights, channel, wrap, values)
             }
             None => values.fill(1.0),
+        }
+    }
+    #[inline(always)]
+    fn read_all(&self, corners: &Corners, weights: &[[f32; 2]], values: &mut [Row]) {
+        match self.map {
+            Some((map, channel, wrap)) => {
+                map.sample_triangles(corners, weights, channel, wrap, values)
+            }
+            None => values.fill([1.0; LANES]),
         }
     }
 }

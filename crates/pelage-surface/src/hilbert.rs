@@ -1,31 +1,35 @@
 //! Position along a Hilbert curve in space, for orders that keep neighbours near.
 
-use crate::Mesh;
-use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec3;
-use rayon::prelude::*;
 
 /// Bits an axis: cells of a 2000th of the largest side.
 const BITS: u32 = 11;
 
-/// Triangles placed on the curve at once.
-const LANES: usize = 32;
+/// Bits of an index along the curve.
+pub(crate) const INDEX_BITS: u32 = 3 * BITS;
 
 /// Index of the cell of `point` along the Hilbert curve that fills the cube from
 /// `low` with side `side`.
 pub(crate) fn hilbert_index(point: Vec3, low: Vec3, side: f32) -> u64 {
-    hilbert_indices([point], low, side)[0]
+    hilbert_indices(point.to_array().map(|x| [x]), low, side)[0]
 }
 
-/// The same for many points at once (Skilling 2004, "Programming the Hilbert curve").
+/// The same for many points at once, all x, all y, all z (Skilling 2004, "Programming the
+/// Hilbert curve").
 #[inline(always)]
-fn hilbert_indices<const N: usize>(points: [Vec3; N], low: Vec3, side: f32) -> [u64; N] {
+pub(crate) fn hilbert_indices<const N: usize>(
+    points: [[f32; N]; 3],
+    low: Vec3,
+    side: f32,
+) -> [u64; N] {
     let cells = (1u32 << BITS) as f32;
-    let cell = |x: f32| ((x / side * cells) as u32).min((1 << BITS) - 1);
+    // By way of i32, which processors make of many floats at once.
+    let cell = |x: f32| ((x / side * cells) as i32).clamp(0, (1 << BITS) - 1) as u32;
     let mut axes = [[0; N]; 3];
-    for (k, point) in points.into_iter().enumerate() {
-        let offset = point - low;
-        [axes[0][k], axes[1][k], axes[2][k]] = [cell(offset.x), cell(offset.y), cell(offset.z)];
+    for (i, low) in low.to_array().into_iter().enumerate() {
+        for k in 0..N {
+            axes[i][k] = cell(points[i][k] - low);
+        }
     }
     // Masks instead of branches, half of which would be guessed wrong.
     let mask = |axis: u32, bit: u32| (axis >> bit & 1).wrapping_neg();
@@ -69,36 +73,6 @@ fn every_third(x: u32) -> u64 {
     let x = (x | x << 8) & 0xf00f_00f0_0f00_f00f;
     let x = (x | x << 4) & 0x30c3_0c30_c30c_30c3;
     (x | x << 2) & 0x9249_2492_4924_9249
-}
-
-/// Triangles along a Hilbert curve through their centres.
-pub(crate) fn along_curve(mesh: &Mesh) -> Vec<u32> {
-    let (low, high) = mesh.bounds();
-    let side = (high - low).max_element().max(f32::MIN_POSITIVE);
-    let count = mesh.triangles().len();
-    // One word each: where on the curve, then which triangle.
-    let bits = usize::BITS - count.leading_zeros();
-    let spare = (3 * BITS + bits).saturating_sub(64);
-    let mut order = vec![0; count];
-    let level = Level::new();
-    let rows = order.par_chunks_mut(LANES).enumerate().with_min_len(LANES);
-    rows.for_each(|(row, words)| {
-        let first = row * LANES;
-        dispatch!(level, simd => {
-            let _ = simd;
-            let centre = |k: usize| {
-                let [a, b, c] = mesh.corners((first + k).min(count - 1));
-                (a + b + c) / 3.0
-            };
-            let along = hilbert_indices::<LANES>(std::array::from_fn(centre), low, side);
-            for (k, word) in words.iter_mut().enumerate() {
-                *word = along[k] >> spare << bits | (first + k) as u64;
-            }
-        });
-    });
-    order.par_sort_unstable();
-    let triangle = |word| (word & ((1 << bits) - 1)) as u32;
-    order.into_iter().map(triangle).collect()
 }
 
 #[cfg(test)]

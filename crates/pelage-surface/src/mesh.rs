@@ -268,21 +268,57 @@ impl Mesh {
     /// Area of triangle `triangle`, computed in f64.
     #[inline]
     pub fn area(&self, triangle: usize) -> f64 {
-        let [a, b, c] = self.corners(triangle).map(|p| p.as_dvec3());
-        (b - a).cross(c - a).length() / 2.0
+        area(self.corners(triangle))
+    }
+
+    /// [`corners`](Self::corners) of many triangles with the vertices `triangles`: of each
+    /// corner all x, all y, all z.
+    #[inline(always)]
+    pub(crate) fn all_corners<const N: usize>(
+        &self,
+        triangles: &[[u32; 3]; N],
+    ) -> [[[f32; N]; 3]; 3] {
+        let mut corners = [[[0.0; N]; 3]; 3];
+        for (k, vertices) in triangles.iter().enumerate() {
+            for ([x, y, z], &vertex) in corners.iter_mut().zip(vertices) {
+                [x[k], y[k], z[k]] = self.positions[vertex as usize].to_array();
+            }
+        }
+        corners
+    }
+
+    /// [`area`](Self::area) of many triangles with the vertices `triangles`: the arithmetic
+    /// runs at once.
+    #[inline(always)]
+    pub(crate) fn areas<const N: usize>(&self, triangles: &[[u32; 3]; N]) -> [f64; N] {
+        let corners = self.all_corners(triangles);
+        let mut areas = [0.0; N];
+        for (k, one) in areas.iter_mut().enumerate() {
+            let [a, b, c] = &corners;
+            *one = area([a, b, c].map(|[x, y, z]| Vec3::new(x[k], y[k], z[k])));
+        }
+        areas
     }
 
     /// Smallest and largest coordinates of the vertices that triangles use.
     pub fn bounds(&self) -> (Vec3, Vec3) {
-        let used = self
-            .triangles
-            .iter()
-            .flatten()
-            .map(|&v| self.positions[v as usize]);
-        used.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), p| {
-            (lo.min(p), hi.max(p))
-        })
+        // Each corner by itself, so that one comparison does not wait for the one before.
+        let mut bounds = [(Vec3::INFINITY, Vec3::NEG_INFINITY); 3];
+        for corners in &self.triangles {
+            for ((low, high), &vertex) in bounds.iter_mut().zip(corners) {
+                let position = self.positions[vertex as usize];
+                (*low, *high) = (low.min(position), high.max(position));
+            }
+        }
+        let [a, b, c] = bounds;
+        (a.0.min(b.0).min(c.0), a.1.max(b.1).max(c.1))
     }
+}
+
+#[inline(always)]
+fn area(corners: [Vec3; 3]) -> f64 {
+    let [a, b, c] = corners.map(|p| p.as_dvec3());
+    (b - a).cross(c - a).length() / 2.0
 }
 
 /// The entries of `array` (one a polygon corner) for each triangle corner.

@@ -8,11 +8,12 @@
 
 use crate::density::{Density, DensityField};
 use crate::distribution::Distribution;
-use crate::hilbert::along_curve;
 use crate::neighbours::Found;
 use crate::part::Part;
 use crate::pieces::Pieces;
 use crate::subdivide::{Piece, Plan};
+use crate::sums::Sums;
+use crate::triangle_order::along_curve;
 use crate::{Mesh, RootSequence, Spread, SurfacePoint, TiledDensity};
 
 /// Draws roots on a mesh in proportion to a density.
@@ -37,19 +38,7 @@ impl RootSampler {
     }
 
     fn by(mesh: &Mesh, density: &impl DensityField, seed: u64) -> Option<Self> {
-        let (order, triangles) = (along_curve(mesh), mesh.triangles().len() as u32);
-        let plan = Plan::new(mesh, &order, density);
-        let deepest = plan.deepest();
-        let (pieces, sums) = match Pieces::part_bits(triangles, deepest) {
-            Some(bits) => {
-                let cut = plan.cut(bits);
-                (Pieces::packed(cut.names, triangles, deepest), cut.sums)
-            }
-            None => {
-                let cut = plan.cut::<Piece>(0);
-                (Pieces::new(&cut.names, triangles)?, cut.sums)
-            }
-        };
+        let (pieces, sums) = pieces(mesh, density)?;
         Some(Self {
             distribution: Distribution::of_sums(sums)?,
             pieces,
@@ -192,6 +181,24 @@ impl RootSampler {
     /// The two numbers of each hair.
     pub fn sequence(&self) -> &RootSequence {
         &self.sequence
+    }
+}
+
+/// The pieces of `mesh` along the curve, and the sums of their weights; `None` for more than
+/// can be named.
+fn pieces(mesh: &Mesh, density: &impl DensityField) -> Option<(Pieces, Sums)> {
+    let (order, triangles) = (along_curve(mesh), mesh.triangles().len() as u32);
+    let plan = Plan::new(mesh, &order, density);
+    let deepest = plan.deepest();
+    match Pieces::part_bits(triangles, deepest) {
+        Some(bits) => {
+            let cut = plan.cut(bits);
+            Some((Pieces::packed(cut.names, triangles, deepest), cut.sums))
+        }
+        None => {
+            let cut = plan.cut::<Piece>(0);
+            Some((Pieces::new(&cut.names, triangles)?, cut.sums))
+        }
     }
 }
 

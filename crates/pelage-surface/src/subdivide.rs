@@ -10,10 +10,11 @@
 //! close up.
 
 use crate::Mesh;
+use crate::cut::{Cutter, Found};
 use crate::density::DensityField;
-use crate::part::{MAX_DEPTH, TABLE_DEPTH, Table, first_part};
+use crate::part::{MAX_DEPTH, Table};
 use crate::sums::{PADDING, Run, Sums, divide};
-use crate::window::place;
+use crate::window::{Corners, LANES};
 use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec2;
 use rayon::prelude::*;
@@ -87,10 +88,21 @@ pub(crate) struct Plan<'a, D> {
 
 impl<'a, D: DensityField> Plan<'a, D> {
     pub(crate) fn new(mesh: &'a Mesh, order: &'a [u32], density: &'a D) -> Self {
-        let depth = |&triangle: &u32| {
-            let uv = uvs(mesh, triangle);
-            density.texels(uv).map_or(0, |size| depth_for(uv, size))
-        };
+        // In the order of the mesh the texture coordinates are read one after the other.
+        let mut of_mesh = vec![0; order.len()];
+        let level = Level::new();
+        let runs = of_mesh.par_chunks_mut(RUN).enumerate();
+        runs.for_each(|(run, depths)| {
+            dispatch!(level, simd => {
+                let _ = simd;
+                for (row, depths) in depths.chunks_mut(LANES).enumerate() {
+                    let first = run * RUN + row * LANES;
+                    let all = depths_from(mesh, density, first);
+                    depths.copy_from_slice(&all[..depths.len()]);
+                }
+            })
+        });
+        let depth = |&triangle: &u32| of_mesh[triangle as usize];
         Self {
             mesh,
             density,
@@ -146,21 +158,24 @@ impl<'a, D: DensityField> Plan<'a, D> {
         let runs: Vec<Run> = runs
             .map(|(stretch, names, before)| {
                 let mut cutter = Cutter {
-                    plan: self,
+                    mesh: self.mesh,
+                    density: self.density,
                     table: &table,
                     levels: [const { Vec::new() }; MAX_DEPTH as usize + 1],
-                    part_bits,
-                    names,
-                    before,
-                    run: Run { len: 0, sum: 0.0 },
+                    found: Found {
+                        part_bits,
+                        names,
+                        before,
+                        run: Run { len: 0, sum: 0.0 },
+                    },
                 };
+                let range = || stretch.triangles.clone();
+                let (triangles, depths) = (&self.order[range()], &self.depths[range()]);
                 dispatch!(level, simd => {
                     let _ = simd;
-                    for k in stretch.triangles.clone() {
-                        cutter.cut(self.order[k], self.depths[k] as u32);
-                    }
+                    cutter.cut(triangles, depths);
                 });
-                cutter.run
+                cutter.found.run
             })
             .collect();
         close_up(&mut names, rooms(), &runs);
@@ -207,142 +222,52 @@ fn close_up<T: Copy>(all: &mut Vec<T>, rooms: impl Iterator<Item = usize>, runs:
     all.shrink_to(to + PADDING);
 }
 
-fn uvs(mesh: &Mesh, triangle: u32) -> [Vec2; 3] {
+pub(crate) fn uvs(mesh: &Mesh, triangle: u32) -> [Vec2; 3] {
     let uv = mesh.uvs().get(triangle as usize);
     uv.copied().unwrap_or([Vec2::ZERO; 3])
-}
-
-/// Density of a part whose parts have different ones.
-const MIXED: f32 = f32::NAN;
-
-/// Cuts the triangles of a run.
-struct Cutter<'a, D, N> {
-    plan: &'a Plan<'a, D>,
-    table: &'a Table,
-    /// Densities of the parts of each depth.
-    levels: [Vec<f32>; MAX_DEPTH as usize + 1],
-    part_bits: u32,
-    names: &'a mut [N],
-    before: &'a mut [u64],
-    run: Run,
-}
-
-impl<D: DensityField, N: Name> Cutter<'_, D, N> {
-    #[inline(always)]
-    fn cut(&mut self, triangle: u32, depth: u32) {
-        let area = self.plan.mesh.area(triangle as usize);
-        // A NaN has no area either.
-        let has_area = area > 0.0 && area.is_finite();
-        if !has_area {
-            return;
-        }
-        self.sample(triangle, depth);
-        let uncut = (0..depth)
-            .rev()
-            .find(|&d| !self.merge(d))
-            .map_or(0, |d| d + 1);
-        let weight = area * self.plan.density.value() as f64;
-        if uncut == depth {
-            self.add_all(triangle, depth, weight);
-        } else {
-            // The parts above are all mixed.
-            for part in 0..1 << (2 * uncut) {
-                self.add(triangle, uncut, part, weight);
-            }
-        }
-    }
-
-    /// Reads the density at the centres of the parts of depth `depth`.
-    #[inline(always)]
-    fn sample(&mut self, triangle: u32, depth: u32) {
-        let uv = uvs(self.plan.mesh, triangle);
-        let level = &mut self.levels[depth as usize];
-        level.resize(1 << (2 * depth), 0.0);
-        let within = depth.min(TABLE_DEPTH);
-        let bases = self.table.parts(depth - within);
-        for (base, level) in bases.iter().zip(level.chunks_exact_mut(1 << (2 * within))) {
-            let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-            let corners = corners.map(|[p, q]| place(uv, base.at(p, q)));
-            self.plan
-                .density
-                .read(corners, self.table.centres(within), level);
-        }
-        // What is less than nothing, or no number, is nothing too.
-        for density in level {
-            *density = density.max(0.0);
-        }
-    }
-
-    /// Gives the parts of depth `depth` the density that their four parts share, and
-    /// tells whether any could be merged.
-    #[inline(always)]
-    fn merge(&mut self, depth: u32) -> bool {
-        let (above, below) = self.levels.split_at_mut(depth as usize + 1);
-        let (above, below) = (&mut above[depth as usize], below[0].as_chunks().0);
-        let mut merged = false;
-        above.resize(below.len(), 0.0);
-        for (above, &[a, b, c, d]) in above.iter_mut().zip(below) {
-            let same = (a == b) & (a == c) & (a == d);
-            merged |= same;
-            *above = if same { a } else { MIXED };
-        }
-        merged
-    }
-
-    /// Adds all parts of depth `depth` that have a density.
-    #[inline(always)]
-    fn add_all(&mut self, triangle: u32, depth: u32, weight: f64) {
-        let share = weight / (1u64 << (2 * depth)) as f64;
-        let first = first_part(depth) as u32;
-        let Run { mut len, mut sum } = self.run;
-        for (i, &density) in self.levels[depth as usize].iter().enumerate() {
-            // Overwritten where it does not count.
-            self.names[len] = N::new(triangle, first + i as u32, self.part_bits);
-            self.before[len] = sum.to_bits();
-            let weight = share * density as f64;
-            len += (weight > 0.0) as usize;
-            sum += weight;
-        }
-        self.run = Run { len, sum };
-    }
-
-    /// Adds the largest parts of one density in part `i` of depth `d`.
-    fn add(&mut self, triangle: u32, d: u32, i: usize, weight: f64) {
-        let density = self.levels[d as usize][i];
-        if density.is_nan() {
-            for child in 4 * i..4 * i + 4 {
-                self.add(triangle, d + 1, child, weight);
-            }
-            return;
-        }
-        let weight = weight / (1u64 << (2 * d)) as f64 * density as f64;
-        if weight > 0.0 {
-            let part = (first_part(d) + i) as u32;
-            self.names[self.run.len] = N::new(triangle, part, self.part_bits);
-            self.before[self.run.len] = self.run.sum.to_bits();
-            self.run.len += 1;
-            self.run.sum += weight;
-        }
-    }
 }
 
 /// Longest side a part may have, in texels, where its area alone would do: slivers of
 /// texture are resolved along their length too.
 const LONGEST: f32 = 4.0;
 
-/// Least depth at which a part covers at most one texel (document 004, eq. 2.3).
+/// Depths of [`LANES`] triangles from `first` on; of the last where there are fewer.
 #[inline(always)]
-fn depth_for(uv: [Vec2; 3], [width, height]: [u32; 2]) -> u8 {
-    let texel = |p: Vec2| p * Vec2::new(width as f32, height as f32);
-    let [a, b, c] = uv.map(texel);
+fn depths_from(mesh: &Mesh, density: &impl DensityField, first: usize) -> [u8; LANES] {
+    let last = mesh.triangles().len() - 1;
+    let (mut areas, mut lengths) = ([0.0; LANES], [0.0; LANES]);
+    let mut corners = Corners::default();
+    let mut sizes = [Vec2::ZERO; LANES];
+    for (lane, size) in sizes.iter_mut().enumerate() {
+        let uv = uvs(mesh, (first + lane).min(last) as u32);
+        // A triangle of one density is one without texels.
+        let [width, height] = density.texels(uv).unwrap_or([0; 2]);
+        *size = Vec2::new(width as f32, height as f32);
+        corners.set(lane, uv);
+    }
+    for (lane, size) in sizes.into_iter().enumerate() {
+        (areas[lane], lengths[lane]) = extent(corners.get(lane), size);
+    }
+    let mut depths = [0; LANES];
+    for depth in 0..MAX_DEPTH {
+        let side = (1u32 << depth) as f32;
+        for lane in 0..LANES {
+            // Whatever fits a depth fits those below; what is no number fits none.
+            let fits = (areas[lane] <= side * side) & (lengths[lane] <= LONGEST * side);
+            depths[lane] += !fits as u8;
+        }
+    }
+    depths
+}
+
+/// Area and longest side, in texels, of a triangle of a map of `size` texels. It is to be cut
+/// until a part covers at most one texel (document 004, eq. 2.3) and is not too long.
+#[inline(always)]
+fn extent(uv: [Vec2; 3], size: Vec2) -> (f32, f32) {
+    let [a, b, c] = uv.map(|p| p * size);
     let area = (b - a).perp_dot(c - a).abs() / 2.0;
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-    let depths = 0..MAX_DEPTH as u8;
-    let fits = |d: &u8| {
-        let side = (1u32 << d) as f32;
-        area <= side * side && longest <= LONGEST * side
-    };
-    depths.into_iter().find(fits).unwrap_or(MAX_DEPTH as u8)
+    (area, longest)
 }
 
 #[cfg(test)]
@@ -369,5 +294,26 @@ mod tests {
         let rooms = [3, 3, 3];
         close_up(&mut all, rooms.into_iter(), &[run(2), run(1), run(3)]);
         assert_eq!(all, [1, 2, 3, 4, 5, 6]);
+    }
+
+    #[test]
+    fn a_triangle_is_cut_until_a_part_covers_a_texel_and_no_further() {
+        use crate::{ImageMap, Wrap, fixture::sheet};
+        let mesh = sheet(5);
+        for size in [1, 4, 5, 6, 40, 300] {
+            let texels = vec![0u8; (size * size) as usize];
+            let map = ImageMap::new(size, size, 1, texels, true).unwrap();
+            let density = crate::Density {
+                value: 1.0,
+                map: Some((&map, 0, Wrap::Repeat)),
+            };
+            // A square of the sheet has two triangles.
+            let texels = (size * size) as f32 / 25.0 / 2.0;
+            for depth in depths_from(&mesh, &density, 0) {
+                let of_depth = |depth: u8| texels / (1u32 << (2 * depth)) as f32;
+                assert!(of_depth(depth) <= 1.0 + 1e-4, "{size}");
+                assert!(depth == 0 || of_depth(depth - 1) > 1.0 - 1e-4, "{size}");
+            }
+        }
     }
 }

@@ -1,22 +1,51 @@
-//! An image read at many places of one triangle of texture space.
+//! An image read at many places of triangles of texture space.
 //!
-//! Where the texels around the triangle lie in the image side by side, coordinates count
+//! Where the texels around a triangle lie in the image side by side, coordinates count
 //! from the first of them, which leaves few digits to keep (f32 will do), and the
-//! arithmetic of many places runs at once.
+//! arithmetic of many places runs at once: of the places of one triangle or, where
+//! triangles have few each, of one place in each of many.
 
-use crate::image_map::{bilinear, floor, wrapped};
+use crate::image_map::{bilinear, wrapped};
 use crate::texels::{Numbers, Texels, with_numbers};
 use crate::{ImageMap, Wrap};
 use pelage_curves::Vec2;
 
 /// Places that go through the arithmetic together.
-const LANES: usize = 16;
+pub(crate) const LANES: usize = 16;
+
+/// A number of each of them.
+pub(crate) type Row = [f32; LANES];
 
 /// The place in a triangle of texture space that has the weights `u` and `v` of its second
 /// and third corner.
 #[inline(always)]
 pub(crate) fn place([a, b, c]: [Vec2; 3], [u, v]: [f32; 2]) -> Vec2 {
     a * (1.0 - u - v) + b * u + c * v
+}
+
+/// Triangles of texture space side by side: of each corner all u, then all v.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Corners([[Row; 2]; 3]);
+
+impl Corners {
+    /// The same triangle in all lanes.
+    #[inline(always)]
+    pub(crate) fn splat(triangle: [Vec2; 3]) -> Self {
+        Self(triangle.map(|corner| corner.to_array().map(|x| [x; LANES])))
+    }
+
+    #[inline(always)]
+    pub(crate) fn get(&self, lane: usize) -> [Vec2; 3] {
+        let [a, b, c] = &self.0;
+        [a, b, c].map(|[u, v]| Vec2::new(u[lane], v[lane]))
+    }
+
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, triangle: [Vec2; 3]) {
+        for ([u, v], corner) in self.0.iter_mut().zip(triangle) {
+            [u[lane], v[lane]] = corner.to_array();
+        }
+    }
 }
 
 impl ImageMap {
@@ -31,116 +60,195 @@ impl ImageMap {
         wrap: Wrap,
         values: &mut [f32],
     ) {
+        let windows = self.windows(&Corners::splat(corners), wrap);
+        if !windows.fits[0] {
+            for (value, &weights) in values.iter_mut().zip(weights) {
+                let uv = place(corners, weights);
+                *value = self.sample(uv.x, uv.y, channel, wrap);
+            }
+            return;
+        }
         with_numbers!(self.texels(), numbers => {
-            match self.window(numbers, corners, channel, wrap) {
-                Some((window, inside)) => window.sample_all(inside, weights, values),
-                None => {
-                    for (value, &weights) in values.iter_mut().zip(weights) {
-                        let uv = place(corners, weights);
-                        *value = self.sample(uv.x, uv.y, channel, wrap);
-                    }
+            let around = Around::new(self, numbers, channel);
+            for (weights, values) in weights.chunks(LANES).zip(values.chunks_mut(LANES)) {
+                let mut row = [[0.0; LANES]; 2];
+                for (lane, &[u, v]) in weights.iter().enumerate() {
+                    (row[0][lane], row[1][lane]) = (u, v);
                 }
+                values.copy_from_slice(&windows.sample(around, row)[..weights.len()]);
             }
         })
     }
 
-    /// The texels around a triangle, and its corners counted in them, if they lie in the
-    /// image side by side.
+    /// The same for many triangles: for each of `weights` a row of what is there in each.
     #[inline(always)]
-    fn window<T: Numbers>(
+    pub(crate) fn sample_triangles(
         &self,
-        numbers: T,
-        corners: [Vec2; 3],
+        corners: &Corners,
+        weights: &[[f32; 2]],
         channel: u32,
         wrap: Wrap,
-    ) -> Option<(Window<T>, [Vec2; 3])> {
-        let size = [self.width(), self.height()];
-        let texels = corners.map(|uv| self.texels_at(uv.to_array()));
-        let (mut first, mut base, mut last) = ([0; 2], [0.0; 2], [0; 2]);
-        for k in 0..2 {
-            let [a, b, c] = texels.map(|t| t[k]);
-            base[k] = floor(a.min(b).min(c));
-            let span = floor(a.max(b).max(c)) - base[k];
-            first[k] = wrapped(base[k], size[k], wrap);
-            // In the mirrored tiles texels run the other way.
-            let same = wrapped(base[k] + span + 1.0, size[k], wrap);
-            let fits = span < size[k] as f64 && same == first[k] + span as u32 + 1;
-            if !fits {
-                return None;
-            }
-            last[k] = span as i32;
+        values: &mut [Row],
+    ) {
+        let windows = self.windows(corners, wrap);
+        if windows.fits.contains(&true) {
+            with_numbers!(self.texels(), numbers => {
+                let around = Around::new(self, numbers, channel);
+                for (row, weights) in values.iter_mut().zip(weights) {
+                    *row = windows.sample(around, weights.map(|w| [w; LANES]));
+                }
+            })
         }
-        let channels = self.channels() as usize;
-        let stride = self.width() as usize * channels;
-        let channel = channel.min(self.channels() - 1) as usize;
-        let start = first[1] as usize * stride + first[0] as usize * channels + channel;
-        // Of the last row but one; the same number follows a row below.
-        let len = last[1] as usize * stride + (last[0] as usize + 1) * channels + 1;
-        let window = Window {
-            upper: numbers.part(start, len),
-            lower: numbers.part(start + stride, len),
-            channels: channels as u32,
-            stride: stride as u32,
-            last,
+        for lane in 0..LANES {
+            if !windows.fits[lane] {
+                for (row, &weights) in values.iter_mut().zip(weights) {
+                    let uv = place(corners.get(lane), weights);
+                    row[lane] = self.sample(uv.x, uv.y, channel, wrap);
+                }
+            }
+        }
+    }
+
+    /// The texels around triangles.
+    #[inline(always)]
+    fn windows(&self, corners: &Corners, wrap: Wrap) -> Windows {
+        let mut texels = [[[0.0; LANES]; 2]; 3];
+        for (texels, [us, vs]) in texels.iter_mut().zip(&corners.0) {
+            for k in 0..LANES {
+                [texels[0][k], texels[1][k]] = self.texels_at([us[k], vs[k]]);
+            }
+        }
+        let mut windows = Windows {
+            fits: [true; LANES],
+            ..Windows::default()
         };
-        let inside = |t: [f64; 2]| Vec2::new((t[0] - base[0]) as f32, (t[1] - base[1]) as f32);
-        Some((window, texels.map(inside)))
+        let channels = self.channels() as usize;
+        let strides = [channels, self.width() as usize * channels];
+        for (axis, size) in [self.width(), self.height()].into_iter().enumerate() {
+            let [a, b, c] = &texels;
+            windows.set(
+                [&a[axis], &b[axis], &c[axis]],
+                axis,
+                (size, strides[axis]),
+                wrap,
+            );
+        }
+        for k in 0..LANES {
+            if !windows.fits[k] {
+                windows.starts[k] = 0;
+                [windows.last[0][k], windows.last[1][k]] = [0; 2];
+            }
+        }
+        windows
     }
 }
 
-/// Texels of one channel that lie side by side in an image.
-struct Window<T> {
-    /// From the first on, without the last row.
-    upper: T,
-    /// The same from the second row on.
-    lower: T,
+/// The texels around triangles side by side.
+#[derive(Default)]
+struct Windows {
+    /// Whether they lie in the image side by side. Where they do not, the others tell nothing,
+    /// but may be read.
+    fits: [bool; LANES],
+    /// The triangles, counted from the centre of the first texel.
+    corners: Corners,
+    /// Where the first texel is.
+    starts: [usize; LANES],
+    /// Last column and row, from the first, that has another beside it.
+    last: [[i32; LANES]; 2],
+}
+
+/// The numbers of an image that are around a texel: of the texel itself, of those on its
+/// right and below it, and of the one below on the right.
+#[derive(Clone, Copy)]
+struct Around<T> {
+    numbers: [T; 4],
     channels: u32,
     stride: u32,
-    /// Last column and row that has another beside it.
-    last: [i32; 2],
 }
 
-impl<T: Numbers> Window<T> {
-    /// Writes the values at places of a triangle whose corners count from the centre of the
-    /// first texel: for each of `weights`, those of its second and third corner.
+impl<T: Numbers> Around<T> {
+    /// Those of an image of two rows and columns at least.
     #[inline(always)]
-    fn sample_all(&self, inside: [Vec2; 3], weights: &[[f32; 2]], values: &mut [f32]) {
-        let (rows, rest) = weights.as_chunks::<LANES>();
-        let (whole, values) = values.split_at_mut(weights.len() - rest.len());
-        for (row, values) in rows.iter().zip(whole.as_chunks_mut().0) {
-            *values = self.sample(inside, row);
+    fn new(image: &ImageMap, numbers: T, channel: u32) -> Self {
+        let channels = image.channels() as usize;
+        let channel = channel.min(image.channels() - 1) as usize;
+        let stride = image.width() as usize * channels;
+        // All of one length: one test tells for the four whether there is a number.
+        let len = numbers.count() - stride - channels - channel;
+        Self {
+            numbers: [
+                numbers.part(channel, len),
+                numbers.part(channel + channels, len),
+                numbers.part(channel + stride, len),
+                numbers.part(channel + stride + channels, len),
+            ],
+            channels: channels as u32,
+            stride: stride as u32,
         }
-        if !rest.is_empty() {
-            let mut row = [[0.0; 2]; LANES];
-            row[..rest.len()].copy_from_slice(rest);
-            values.copy_from_slice(&self.sample(inside, &row)[..rest.len()]);
+    }
+}
+
+impl Windows {
+    /// Takes one axis of corners, in texels, of an image that has `size` texels along it, whose
+    /// numbers are `stride` apart.
+    #[inline(always)]
+    fn set(
+        &mut self,
+        texels: [&[f64; LANES]; 3],
+        axis: usize,
+        (size, stride): (u32, usize),
+        wrap: Wrap,
+    ) {
+        let [a, b, c] = texels;
+        let (mut base, mut span) = ([0.0; LANES], [0.0; LANES]);
+        let mut inside = true;
+        for k in 0..LANES {
+            base[k] = a[k].min(b[k]).min(c[k]).floor();
+            span[k] = a[k].max(b[k]).max(c[k]).floor() - base[k];
+            inside &= (base[k] >= 0.0) & (base[k] + span[k] + 1.0 < size as f64);
+        }
+        let mut first = base.map(|x| x as i32 as u32);
+        // Inside, nothing wraps.
+        if !inside {
+            for k in 0..LANES {
+                first[k] = wrapped(base[k], size, wrap);
+                // In the mirrored tiles texels run the other way.
+                let same = wrapped(base[k] + span[k] + 1.0, size, wrap);
+                self.fits[k] &= span[k] < size as f64 && same == first[k] + span[k] as u32 + 1;
+            }
+        }
+        for k in 0..LANES {
+            self.starts[k] += first[k] as usize * stride;
+            self.last[axis][k] = span[k] as i32;
+            for (inside, texels) in self.corners.0.iter_mut().zip(texels) {
+                inside[axis][k] = (texels[k] - base[k]) as f32;
+            }
         }
     }
 
-    /// Bilinear values at places of a triangle whose `corners` count from the centre of the
-    /// first texel.
+    /// Bilinear values at one place of each triangle, where the second and third corner have
+    /// the weights `us` and `vs`.
     #[inline(always)]
-    fn sample(&self, corners: [Vec2; 3], weights: &[[f32; 2]; LANES]) -> [f32; LANES] {
+    fn sample<T: Numbers>(&self, texels: Around<T>, [us, vs]: [Row; 2]) -> Row {
         let [mut across, mut down, mut values] = [[0.0; LANES]; 3];
         let mut first = [0; LANES];
         for k in 0..LANES {
-            let [x, y] = place(corners, weights[k]).to_array();
-            let column = (x as i32).clamp(0, self.last[0]);
-            let row = (y as i32).clamp(0, self.last[1]);
+            let [x, y] = place(self.corners.get(k), [us[k], vs[k]]).to_array();
+            // `clamp` would look in each lane whether its bounds are in order.
+            let column = (x as i32).max(0).min(self.last[0][k]);
+            let row = (y as i32).max(0).min(self.last[1][k]);
             across[k] = x - column as f32;
             down[k] = y - row as f32;
-            first[k] = row as u32 * self.stride + column as u32 * self.channels;
+            first[k] = row as u32 * texels.stride + column as u32 * texels.channels;
         }
         let mut around = [[0.0; LANES]; 4];
-        // The two are of one length, and 64 bits do not overflow: one test is enough.
-        let (upper, lower) = (self.upper, self.lower.part(0, self.upper.count()));
+        let [own, right, below, below_right] = texels.numbers;
         for k in 0..LANES {
-            let left = first[k] as usize;
-            let right = left + self.channels as usize;
-            around[1][k] = upper.number(right);
-            around[3][k] = lower.number(right);
-            around[0][k] = upper.number(left);
-            around[2][k] = lower.number(left);
+            let at = self.starts[k] + first[k] as usize;
+            around[3][k] = below_right.number(at);
+            around[0][k] = own.number(at);
+            around[1][k] = right.number(at);
+            around[2][k] = below.number(at);
         }
         for k in 0..LANES {
             values[k] = bilinear(around.each_ref().map(|row| row[k]), across[k], down[k]);
@@ -175,6 +283,30 @@ mod tests {
                     let expected = map.sample(at.x, at.y, 0, wrap);
                     // Texels go up to 10, over 1/64.
                     prop_assert!((value - expected).abs() < 0.01, "{wrap:?} {at} {value} {expected}");
+                }
+            }
+        }
+
+        #[test]
+        fn triangles_side_by_side_read_as_each_alone(
+            first in prop::array::uniform16(prop::array::uniform2(-1.5f32..2.5)),
+            others in prop::array::uniform16(prop::array::uniform2(prop::array::uniform2(-0.1f32..0.1))),
+            weights in prop::collection::vec(prop::array::uniform2(0.0f32..0.5), 1..17),
+        ) {
+            let map = spots();
+            let (mut corners, mut triangles) = (Corners::default(), Vec::new());
+            for (lane, (first, others)) in first.into_iter().zip(others).enumerate() {
+                let [a, b] = others.map(|apart| Vec2::from(first) + Vec2::from(apart));
+                corners.set(lane, [first.into(), a, b]);
+                triangles.push(corners.get(lane));
+            }
+            for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
+                let mut rows = vec![[0.0; LANES]; weights.len()];
+                map.sample_triangles(&corners, &weights, 0, wrap, &mut rows);
+                for (lane, &triangle) in triangles.iter().enumerate() {
+                    let mut alone = vec![0.0; weights.len()];
+                    map.sample_triangle(triangle, &weights, 0, wrap, &mut alone);
+                    prop_assert!(alone.iter().zip(&rows).all(|(value, row)| *value == row[lane]));
                 }
             }
         }

@@ -1,0 +1,246 @@
+//! Cutting the triangles of a run.
+//!
+//! A triangle that is cut into a few parts has too little to do for a processor that does
+//! sixteen things at once, so such triangles go side by side, as many as are cut equally deep.
+
+use crate::Mesh;
+use crate::density::DensityField;
+use crate::part::{MAX_DEPTH, TABLE_DEPTH, Table, first_part};
+use crate::subdivide::{Name, uvs};
+use crate::sums::Run;
+use crate::window::{Corners, LANES, Row, place};
+use pelage_curves::Vec2;
+
+/// Depth to which triangles are read side by side.
+const SHALLOW: u32 = 2;
+
+/// Most parts of those.
+const FEW: usize = 1 << (2 * SHALLOW);
+
+/// Density of a part whose parts have different ones.
+const MIXED: f32 = f32::NAN;
+
+/// Cuts the triangles of a run.
+pub(crate) struct Cutter<'a, D, N> {
+    pub mesh: &'a Mesh,
+    pub density: &'a D,
+    pub table: &'a Table,
+    /// Densities of the parts of each depth.
+    pub levels: [Vec<f32>; MAX_DEPTH as usize + 1],
+    pub found: Found<'a, N>,
+}
+
+/// The pieces of a run, as far as they have been found.
+pub(crate) struct Found<'a, N> {
+    pub part_bits: u32,
+    pub names: &'a mut [N],
+    pub before: &'a mut [u64],
+    pub run: Run,
+}
+
+/// What is known of a triangle of few parts.
+#[derive(Clone, Copy)]
+struct Shallow {
+    /// At the centres of the parts.
+    densities: [f32; FEW],
+    /// Whether four parts are of one density.
+    merges: bool,
+}
+
+impl<D: DensityField, N: Name> Cutter<'_, D, N> {
+    /// Cuts `triangles`, each as often as `depths` tells.
+    #[inline(always)]
+    pub(crate) fn cut(&mut self, triangles: &[u32], depths: &[u8]) {
+        // Triangles along the curve lie far apart in memory. With nothing to do between two
+        // readings, processors wait for many at once.
+        let mut corners = vec![[Vec2::ZERO; 3]; triangles.len()];
+        for (corners, &triangle) in corners.iter_mut().zip(triangles) {
+            *corners = uvs(self.mesh, triangle);
+        }
+        let mut vertices = vec![[0; 3]; triangles.len()];
+        for (vertices, &triangle) in vertices.iter_mut().zip(triangles) {
+            *vertices = self.mesh.triangles()[triangle as usize];
+        }
+        let shallow = self.read_shallow(&corners, depths);
+        for (row, vertices) in vertices.chunks(LANES).enumerate() {
+            let mut block = [vertices[0]; LANES];
+            block[..vertices.len()].copy_from_slice(vertices);
+            let areas = self.mesh.areas(&block);
+            for (k, &area) in areas[..vertices.len()].iter().enumerate() {
+                let k = row * LANES + k;
+                // A NaN has no area either.
+                if area > 0.0 && area.is_finite() {
+                    self.cut_one(triangles[k], depths[k] as u32, area, &shallow[k]);
+                }
+            }
+        }
+    }
+
+    /// What there is to know of those of `triangles` of texture space that are cut into few
+    /// parts.
+    #[inline(always)]
+    fn read_shallow(&self, triangles: &[[Vec2; 3]], depths: &[u8]) -> Vec<Shallow> {
+        let none = Shallow {
+            densities: [0.0; FEW],
+            merges: false,
+        };
+        let mut shallow = vec![none; triangles.len()];
+        let mut equal = Vec::with_capacity(triangles.len());
+        for depth in 0..=SHALLOW {
+            equal.clear();
+            for (k, &own) in depths.iter().enumerate() {
+                if own as u32 == depth {
+                    equal.push(k);
+                }
+            }
+            for lanes in equal.chunks(LANES) {
+                self.read_lanes(triangles, depth, lanes, &mut shallow);
+            }
+        }
+        shallow
+    }
+
+    /// The same for the few of `triangles` that have the indices `lanes`, all of one depth.
+    #[inline(always)]
+    fn read_lanes(
+        &self,
+        triangles: &[[Vec2; 3]],
+        depth: u32,
+        lanes: &[usize],
+        shallow: &mut [Shallow],
+    ) {
+        let mut corners = Corners::splat(triangles[lanes[0]]);
+        for (lane, &k) in lanes.iter().enumerate() {
+            corners.set(lane, triangles[k]);
+        }
+        let centres = self.table.centres(depth);
+        let mut rows: [Row; FEW] = [[0.0; LANES]; FEW];
+        let read = &mut rows[..centres.len()];
+        self.density.read_all(&corners, centres, read);
+        for density in read.iter_mut().flatten() {
+            *density = sound(*density);
+        }
+        let mut merges = [false; LANES];
+        for [a, b, c, d] in read.as_chunks().0 {
+            for lane in 0..LANES {
+                let [a, b, c, d] = [a[lane], b[lane], c[lane], d[lane]];
+                merges[lane] |= (a == b) & (a == c) & (a == d);
+            }
+        }
+        for (lane, &k) in lanes.iter().enumerate() {
+            for (density, row) in shallow[k].densities.iter_mut().zip(&*read) {
+                *density = row[lane];
+            }
+            shallow[k].merges = merges[lane];
+        }
+    }
+
+    #[inline(always)]
+    fn cut_one(&mut self, triangle: u32, depth: u32, area: f64, shallow: &Shallow) {
+        let weight = area * self.density.value() as f64;
+        if depth <= SHALLOW {
+            let densities = &shallow.densities[..1 << (2 * depth)];
+            if !shallow.merges {
+                return self.found.add_all(triangle, depth, densities, weight);
+            }
+            let level = &mut self.levels[depth as usize];
+            level.clear();
+            level.extend_from_slice(densities);
+        } else {
+            self.read(triangle, depth);
+        }
+        let uncut = (0..depth)
+            .rev()
+            .find(|&d| !self.merge(d))
+            .map_or(0, |d| d + 1);
+        if uncut == depth {
+            let densities = &self.levels[depth as usize];
+            self.found.add_all(triangle, depth, densities, weight);
+        } else {
+            // The parts above are all mixed.
+            for part in 0..1 << (2 * uncut) {
+                self.found.add(&self.levels, triangle, uncut, part, weight);
+            }
+        }
+    }
+
+    /// Reads the density at the centres of the parts of depth `depth`.
+    #[inline(always)]
+    fn read(&mut self, triangle: u32, depth: u32) {
+        let uv = uvs(self.mesh, triangle);
+        let level = &mut self.levels[depth as usize];
+        level.resize(1 << (2 * depth), 0.0);
+        let within = depth.min(TABLE_DEPTH);
+        let bases = self.table.parts(depth - within);
+        for (base, level) in bases.iter().zip(level.chunks_exact_mut(1 << (2 * within))) {
+            let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+            let corners = corners.map(|[p, q]| place(uv, base.at(p, q)));
+            let centres = self.table.centres(within);
+            self.density.read(corners, centres, level);
+        }
+        for density in level {
+            *density = sound(*density);
+        }
+    }
+
+    /// Gives the parts of depth `depth` the density that their four parts share, and
+    /// tells whether any could be merged.
+    #[inline(always)]
+    fn merge(&mut self, depth: u32) -> bool {
+        let (above, below) = self.levels.split_at_mut(depth as usize + 1);
+        let (above, below) = (&mut above[depth as usize], below[0].as_chunks().0);
+        let mut merged = false;
+        above.resize(below.len(), 0.0);
+        for (above, &[a, b, c, d]) in above.iter_mut().zip(below) {
+            let same = (a == b) & (a == c) & (a == d);
+            merged |= same;
+            *above = if same { a } else { MIXED };
+        }
+        merged
+    }
+}
+
+impl<N: Name> Found<'_, N> {
+    /// Adds all parts of depth `depth` that have a density.
+    #[inline(always)]
+    fn add_all(&mut self, triangle: u32, depth: u32, densities: &[f32], weight: f64) {
+        let share = weight / (1u64 << (2 * depth)) as f64;
+        let first = first_part(depth) as u32;
+        let Run { mut len, mut sum } = self.run;
+        for (i, &density) in densities.iter().enumerate() {
+            // Overwritten where it does not count.
+            self.names[len] = N::new(triangle, first + i as u32, self.part_bits);
+            self.before[len] = sum.to_bits();
+            let weight = share * density as f64;
+            len += (weight > 0.0) as usize;
+            sum += weight;
+        }
+        self.run = Run { len, sum };
+    }
+
+    /// Adds the largest parts of one density in part `i` of depth `d`, of the densities
+    /// `levels`.
+    fn add(&mut self, levels: &[Vec<f32>], triangle: u32, d: u32, i: usize, weight: f64) {
+        let density = levels[d as usize][i];
+        if density.is_nan() {
+            for child in 4 * i..4 * i + 4 {
+                self.add(levels, triangle, d + 1, child, weight);
+            }
+            return;
+        }
+        let weight = weight / (1u64 << (2 * d)) as f64 * density as f64;
+        if weight > 0.0 {
+            let part = (first_part(d) + i) as u32;
+            self.names[self.run.len] = N::new(triangle, part, self.part_bits);
+            self.before[self.run.len] = self.run.sum.to_bits();
+            self.run.len += 1;
+            self.run.sum += weight;
+        }
+    }
+}
+
+/// A density; what is less than nothing, or no number, is nothing too.
+#[inline(always)]
+fn sound(density: f32) -> f32 {
+    density.max(0.0)
+}
