@@ -35,6 +35,33 @@ fn a_thousand_hairs_are_the_first_of_two_thousand() {
 }
 
 #[test]
+fn hairs_along_the_surface_are_the_same_hairs_for_any_number_of_threads() {
+    let folder = Folder::with_ball();
+    let by_index = folder.arrays("index.npz", &["--count", "3000"]);
+    let along = |name: &str, threads: &str| {
+        let order = [
+            "--count",
+            "3000",
+            "--order",
+            "surface",
+            "--threads",
+            threads,
+        ];
+        folder.arrays(name, &order)
+    };
+    let one = along("one.npz", "1");
+    assert!(one == along("three.npz", "3"));
+    assert!(one != by_index);
+    for (i, &hair) in one.hair_id.iter().enumerate() {
+        let hair = hair as usize;
+        assert_eq!(one.strand_points(i), by_index.strand_points(hair));
+    }
+    let mut hairs = one.hair_id.clone();
+    hairs.sort_unstable();
+    assert_eq!(hairs, by_index.hair_id);
+}
+
+#[test]
 fn every_format_is_sound_when_looked_into() {
     let folder = Folder::with_ball();
     for name in ["hair.usdc", "hair.usda", "hair.npz"] {

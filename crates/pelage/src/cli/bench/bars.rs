@@ -26,8 +26,8 @@ impl Bars<'_> {
     }
 
     fn draw(&self, text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
-        let height = 150 + 60 * self.bars.len() as u32;
-        let root = SVGBackend::with_string(text, (720, height)).into_drawing_area();
+        let height = 150 + 40 * self.bars.len() as u32;
+        let root = SVGBackend::with_string(text, (800, height)).into_drawing_area();
         root.fill(&WHITE)?;
         let longest = self.bars.iter().map(|(_, parts)| parts.iter().sum());
         let longest = longest.fold(f64::MIN_POSITIVE, f64::max);
@@ -35,7 +35,7 @@ impl Bars<'_> {
             .caption(self.title, ("sans-serif", 18))
             .margin(12)
             .x_label_area_size(44)
-            .y_label_area_size(130)
+            .y_label_area_size(210)
             // Room for the legend beside the longest bar.
             .build_cartesian_2d(0.0..longest * 1.35, (0..self.bars.len()).into_segmented())?;
         let name = |at: &SegmentValue<usize>| match at {

@@ -7,6 +7,7 @@ use crate::cli::stats::{forget_peak_memory, peak_memory};
 use anyhow::Result;
 use pelage::groom::{Capture, Clock, Pose, Posed, Scratch, Stage};
 use pelage::strands::{Null, StreamInfo};
+use pelage::surface::AlongSurface;
 use pelage::{Order, Plan, Request, Sink, StrandBuffer, generate};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -19,7 +20,10 @@ const CHUNK: u64 = 1024;
 /// What was measured, as `--json` gives it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    pub scene: &'static str,
+    /// Name of the scene, and of the order where it is not that of the indices.
+    pub scene: String,
+    #[serde(skip)]
+    pub order: Order,
     pub hairs: u64,
     /// Vertices of a hair.
     pub cvs: u32,
@@ -37,11 +41,21 @@ pub struct Row {
 }
 
 impl Row {
-    /// The row of `scene` with `threads` threads.
-    pub fn new(scene: &Scene, threads: usize, cold: &Cold, seconds_warm: f64) -> Self {
+    /// The row of `scene` in `order` with `threads` threads.
+    pub fn new(
+        (scene, order): (&Scene, Order),
+        threads: usize,
+        cold: &Cold,
+        seconds_warm: f64,
+    ) -> Self {
+        let suffix = match order {
+            Order::Index => "",
+            Order::Surface => ", along the surface",
+        };
         let spent = |stage: Stage| (stage.name(), cold.clock.spent(stage).as_secs_f64());
         Self {
-            scene: scene.name,
+            scene: format!("{}{suffix}", scene.name),
+            order,
             hairs: scene.plan.count(),
             cvs: scene.segments + 1,
             fibers: scene.fibers,
@@ -68,9 +82,9 @@ pub struct Cold {
 }
 
 /// Makes all hairs of `plan` into the null sink.
-pub fn cold(plan: &Plan, threads: usize, runs: usize) -> Result<Cold> {
+pub fn cold(plan: &Plan, order: Order, threads: usize, runs: usize) -> Result<Cold> {
     let request = Request {
-        order: Order::default(),
+        order,
         hairs: 0..plan.count(),
         threads,
         frame: 0.0,
@@ -100,13 +114,22 @@ pub fn cold(plan: &Plan, threads: usize, runs: usize) -> Result<Cold> {
 }
 
 /// Everything that the hairs of a plan take from the rest pose.
-pub fn captured(plan: &Plan) -> Vec<Capture> {
-    let chunks = plan.count().div_ceil(CHUNK);
+pub fn captured(plan: &Plan, order: Order) -> Vec<Capture> {
+    let count = plan.count();
+    let along = match order {
+        Order::Index => None,
+        Order::Surface => plan.roots().along_surface(0..count, CHUNK),
+    };
+    let chunks = along
+        .as_ref()
+        .map_or(count.div_ceil(CHUNK), AlongSurface::parts);
     let capture = |chunk: u64| {
+        let (mut capture, clock) = (Capture::default(), &mut Clock::default());
         let first = chunk * CHUNK;
-        let mut capture = Capture::default();
-        let hairs = first..(first + CHUNK).min(plan.count());
-        plan.capture(hairs, &mut capture, &mut Clock::default());
+        match &along {
+            None => plan.capture(first..(first + CHUNK).min(count), &mut capture, clock),
+            Some(along) => plan.capture_along(along, chunk, &mut capture, clock),
+        }
         capture
     };
     (0..chunks).into_par_iter().map(capture).collect()

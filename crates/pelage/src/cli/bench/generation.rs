@@ -10,6 +10,7 @@ use crate::cli::generate::threads_of;
 use crate::cli::progress::Bar;
 use crate::cli::say::{Say, grouped};
 use anyhow::Result;
+use pelage::Order;
 use pelage::groom::Stage;
 use std::fmt::Write;
 
@@ -20,7 +21,8 @@ segments into the null sink: a million single hairs, or 200,000 of 5 fibres each
 scenes `strands`. `plain` sets scale, frizz, kink, mutant hair, the variation of colour, and
 colour, opacity and width from root to tip, and no map; `five maps` has maps of 1024² texels
 for density, scale, colour, opacity and width, as document 004 compares (section 4.2).
-`strands` is plain too, with splay, twist and shortening.
+`strands` is plain too, with splay, twist and shortening. Hairs come in the order of their
+indices, or *along the surface* (`--order surface`), neighbours after each other.
 *Cold* is everything from roots to the
 sink; *warm* keeps what was captured of the rest pose, as the frames of an animation can,
 and evaluates a pose. The best of five runs counts. *Of copying* is the bytes handed to the
@@ -77,35 +79,39 @@ pub fn run(quick: bool, say: &Say) -> Result<Results> {
     let mut threads = vec![1, threads_of(0)];
     threads.dedup();
     let scenes = scenes(effort.hairs, effort.map_size)?;
-    let pairs: Vec<(&Scene, usize)> = scenes
+    let ordered: Vec<(&Scene, Order)> = scenes
         .iter()
-        .flat_map(|scene| threads.iter().map(move |&n| (scene, n)))
+        .flat_map(|scene| [Order::Index, Order::Surface].map(|order| (scene, order)))
         .collect();
-    let bar = Bar::new(say, 2 * pairs.len() as u64, "measurements");
+    let bar = Bar::new(
+        say,
+        2 * (ordered.len() * threads.len()) as u64,
+        "measurements",
+    );
     // All cold runs come first: what is kept for the warm ones would count as theirs.
     let mut colds = Vec::new();
-    for &(scene, n) in &pairs {
-        colds.push(cold(&scene.plan, n, effort.runs)?);
-        bar.set(colds.len() as u64);
+    for &(scene, order) in &ordered {
+        for &n in &threads {
+            colds.push(cold(&scene.plan, order, n, effort.runs)?);
+            bar.set(colds.len() as u64);
+        }
     }
     let copying = threads
         .iter()
         .map(|&n| (n, copying(n, effort.copied, effort.runs)))
         .collect();
-    let mut rows: Vec<Row> = Vec::new();
-    for scene in &scenes {
-        let captures = captured(&scene.plan);
+    let (mut rows, mut bytes) = (Vec::new(), Vec::new());
+    for &(scene, order) in &ordered {
+        let captures = captured(&scene.plan, order);
         for &n in &threads {
             let seconds = warm(&scene.plan, &captures, n, effort.runs)?;
-            rows.push(Row::new(scene, n, &colds[rows.len()], seconds));
+            rows.push(Row::new((scene, order), n, &colds[rows.len()], seconds));
+            bytes.push(bytes_of_a_hair(scene)?);
             bar.set((colds.len() + rows.len()) as u64);
         }
     }
     Ok(Results {
-        bytes: pairs
-            .iter()
-            .map(|(scene, _)| bytes_of_a_hair(scene))
-            .collect::<Result<_>>()?,
+        bytes,
         rows,
         copying,
         machine,
@@ -132,7 +138,7 @@ impl Results {
         format!(
             "# Generation\n\nMade by `pelage bench generation -o docs/results --json \
             docs/results/generation.json`, version {version}, on {machine}.\n\
-            {PREFACE}\n{tables}\n![Cost by stage](generation-stages.svg)\n"
+            {PREFACE}\n{tables}![Cost by stage](generation-stages.svg)\n"
         )
     }
 
@@ -140,7 +146,12 @@ impl Results {
         let mut text = String::new();
         // Writing to a String cannot fail.
         let _ = self.write_seconds(&mut text);
-        let _ = self.write_stages(&mut text);
+        for (order, name) in [
+            (Order::Index, "in the order of the indices"),
+            (Order::Surface, "along the surface"),
+        ] {
+            let _ = self.write_stages(order, name, &mut text);
+        }
         text
     }
 
@@ -195,9 +206,13 @@ impl Results {
         self.rows.iter().filter(|row| row.threads == 1)
     }
 
-    fn write_stages(&self, text: &mut String) -> std::fmt::Result {
-        writeln!(text, "## Nanoseconds a hair by stage, cold, one thread\n")?;
-        let names: Vec<String> = self.single().map(name).collect();
+    fn write_stages(&self, order: Order, title: &str, text: &mut String) -> std::fmt::Result {
+        writeln!(
+            text,
+            "## Nanoseconds a hair by stage, {title}, cold, one thread\n"
+        )?;
+        let rows: Vec<&Row> = self.single().filter(|row| row.order == order).collect();
+        let names: Vec<String> = rows.iter().map(|row| name(row)).collect();
         writeln!(text, "| stage | {} |", names.join(" | "))?;
         writeln!(text, "|---|{}", "---|".repeat(names.len()))?;
         let sum = |row: &Row| Stage::ALL.iter().map(|s| row.nanoseconds(s.name())).sum();
@@ -206,11 +221,11 @@ impl Results {
                 let (spent, all): (f64, f64) = (row.nanoseconds(stage), sum(row));
                 format!("{spent:.1} ({:.0} %)", 100.0 * spent / all)
             };
-            let cells: Vec<String> = self.single().map(cell).collect();
+            let cells: Vec<String> = rows.iter().map(|row| cell(row)).collect();
             writeln!(text, "| {stage} | {} |", cells.join(" | "))?;
         }
-        let sums = self.single().map(|row| format!("{:.1}", sum(row)));
-        writeln!(text, "| all | {} |", sums.collect::<Vec<_>>().join(" | "))
+        let sums = rows.iter().map(|row| format!("{:.1}", sum(row)));
+        writeln!(text, "| all | {} |\n", sums.collect::<Vec<_>>().join(" | "))
     }
 
     fn plot(&self) -> Result<String> {
