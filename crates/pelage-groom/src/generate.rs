@@ -50,6 +50,18 @@ pub enum GenerateError {
         /// Why.
         error: Box<dyn Error + Send + Sync>,
     },
+    /// More hairs are to be sorted along the surface than memory should be taken for.
+    #[error(
+        "{found} hairs in the order of the surface: where roots.pattern is random or blue-noise \
+        they are sorted in memory, {limit} at most; make them in ranges, or in the order of \
+        their indices"
+    )]
+    TooManyToSort {
+        /// Hairs asked for.
+        found: u64,
+        /// Most there may be.
+        limit: u64,
+    },
     /// The callback asked to stop.
     #[error("stopped")]
     Stopped,
@@ -87,7 +99,7 @@ pub fn generate(
     let hairs = plan.roots().rooted(request.hairs.clone());
     let total = hairs.end.saturating_sub(hairs.start);
     let each = (CHUNK_VERTICES / plan.most_vertices()).clamp(1, CHUNK);
-    let parts = Parts::new(plan.roots(), hairs, request.order, each);
+    let parts = Parts::new(plan.roots(), hairs, request.order, each)?;
     sink.begin(&StreamInfo {
         at_most: Some(Amount {
             strands: total.saturating_mul(plan.fibers() as u64),

@@ -1,9 +1,13 @@
 //! The order in which hairs are made, and the chunks they are cut into.
 
 use crate::RootPlan;
+use crate::generate::GenerateError;
 use crate::in_order::Chunks;
 use pelage_surface::{AlongSurface, SurfacePoint};
 use std::ops::Range;
+
+/// Most hairs that are sorted along the surface: 2 GB.
+const MOST_SORTED: u64 = 250_000_000;
 
 /// The order in which hairs come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -15,7 +19,7 @@ pub enum Order {
     /// Neighbours after each other, which is faster, since they are made of the same triangles,
     /// guides and texels. They are the same hairs, in one order in all frames; but the first n
     /// are a patch, and other ranges of hairs have another order. Random roots and blue noise
-    /// take 8 bytes a hair.
+    /// take 8 bytes a hair, and no more than 250 million of them go at once.
     Surface,
 }
 
@@ -27,13 +31,23 @@ pub(crate) enum Parts<'a> {
 
 impl<'a> Parts<'a> {
     /// Those of `hairs` that have a root, about `each` at a time.
-    pub(crate) fn new(plan: &'a RootPlan, hairs: Range<u64>, order: Order, each: u64) -> Self {
+    pub(crate) fn new(
+        plan: &'a RootPlan,
+        hairs: Range<u64>,
+        order: Order,
+        each: u64,
+    ) -> Result<Self, GenerateError> {
         let hairs = plan.rooted(hairs);
-        let along = match order {
-            Order::Index => None,
-            Order::Surface => plan.along_surface(hairs.clone(), each),
-        };
-        along.map_or_else(|| Self::Ranges(Chunks::new(hairs, each)), Self::Along)
+        if order == Order::Index {
+            return Ok(Self::Ranges(Chunks::new(hairs, each)));
+        }
+        let found = hairs.end.saturating_sub(hairs.start);
+        if plan.is_sorted_along() && found > MOST_SORTED {
+            let limit = MOST_SORTED;
+            return Err(GenerateError::TooManyToSort { found, limit });
+        }
+        let along = plan.along_surface(hairs.clone(), each);
+        Ok(along.map_or_else(|| Self::Ranges(Chunks::new(hairs, each)), Self::Along))
     }
 
     pub(crate) fn count(&self) -> u64 {

@@ -130,6 +130,15 @@ impl RootPlan {
         })
     }
 
+    /// Whether hairs have to be sorted to come along the surface.
+    pub(crate) fn is_sorted_along(&self) -> bool {
+        let spread = self
+            .sampler
+            .as_ref()
+            .map(|sampler| sampler.sequence().spread());
+        self.blue_noise.is_some() || spread == Some(Spread::Random)
+    }
+
     /// Appends the places of `hairs`, all of which are [`rooted`](Self::rooted).
     pub(crate) fn places(&self, hairs: Range<u64>, places: &mut Vec<SurfacePoint>) {
         match (&self.blue_noise, &self.sampler) {

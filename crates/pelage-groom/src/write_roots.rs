@@ -24,9 +24,9 @@ pub fn write_roots(
     sink: &mut dyn Sink,
     progress: &mut dyn FnMut(u64) -> bool,
 ) -> Result<u64, GenerateError> {
+    let parts = Parts::new(plan, request.hairs.clone(), request.order, CHUNK)?;
     sink.begin(&request.info)?;
     sink.begin_frame(0)?;
-    let parts = Parts::new(plan, request.hairs.clone(), request.order, CHUNK);
     let mut done = 0;
     in_order(
         parts.count(),

@@ -103,6 +103,24 @@ fn roots_along_the_surface_are_those_of_the_hairs() {
 }
 
 #[test]
+fn more_random_hairs_than_memory_should_hold_are_refused_along_the_surface() {
+    let fixture = Fixture {
+        more: "roots.pattern = 'random'",
+        ..Fixture::default()
+    };
+    let plan = fixture.plan();
+    let mut sink = Collect::default();
+    let request = along_request(0..1 << 40, 1);
+    let error = write_roots(plan.roots(), &request, None, &mut sink, &mut |_| true);
+    let message = error.unwrap_err().to_string();
+    assert!(
+        message.starts_with("1099511627776 hairs in the order"),
+        "{message}"
+    );
+    assert!(message.contains("250000000 at most"), "{message}");
+}
+
+#[test]
 fn progress_along_the_surface_ends_at_the_number_of_hairs() {
     let plan = Fixture::default().plan();
     let mut last = 0;
