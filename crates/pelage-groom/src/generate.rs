@@ -99,7 +99,7 @@ pub fn generate(
     let hairs = plan.roots().rooted(request.hairs.clone());
     let total = hairs.end.saturating_sub(hairs.start);
     let each = (CHUNK_VERTICES / plan.most_vertices()).clamp(1, CHUNK);
-    let parts = Parts::new(plan.roots(), hairs, request.order, each)?;
+    let parts = Parts::new(plan.roots(), request, sink, each)?;
     sink.begin(&StreamInfo {
         at_most: Some(Amount {
             strands: total.saturating_mul(plan.fibers() as u64),

@@ -24,7 +24,7 @@ pub fn write_roots(
     sink: &mut dyn Sink,
     progress: &mut dyn FnMut(u64) -> bool,
 ) -> Result<u64, GenerateError> {
-    let parts = Parts::new(plan, request.hairs.clone(), request.order, CHUNK)?;
+    let parts = Parts::new(plan, request, sink, CHUNK)?;
     sink.begin(&request.info)?;
     sink.begin_frame(0)?;
     let mut done = 0;

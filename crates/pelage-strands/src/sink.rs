@@ -88,13 +88,20 @@ impl SinkError {
     }
 }
 
-/// Takes strands, chunk by chunk in order of hair index.
+/// Takes strands, chunk by chunk in order of hair index, or in another where that was asked for
+/// or [does not matter](Self::takes_any_order).
 ///
 /// The order of calls is `begin`, then for each frame (or once, for a still)
 /// `begin_frame`, `write` any number of times, `end_frame`; then `finish`. Every
 /// frame brings the same strands with the same vertex counts; only positions and
 /// normals move. A sink that is dropped before `finish` leaves nothing behind.
 pub trait Sink: Send {
+    /// Whether the order of strands changes nothing in what becomes of them. Then they come in
+    /// the order in which they are made fastest.
+    fn takes_any_order(&self) -> bool {
+        false
+    }
+
     /// Opens the stream.
     fn begin(&mut self, _info: &StreamInfo) -> Result<(), SinkError> {
         Ok(())
@@ -124,6 +131,10 @@ pub trait Sink: Send {
 pub struct Null;
 
 impl Sink for Null {
+    fn takes_any_order(&self) -> bool {
+        true
+    }
+
     fn write(&mut self, _strands: &StrandBuffer) -> Result<(), SinkError> {
         Ok(())
     }
@@ -169,6 +180,9 @@ impl<'a> Tee<'a> {
 }
 
 impl Sink for Tee<'_> {
+    fn takes_any_order(&self) -> bool {
+        self.sinks.iter().all(|s| s.takes_any_order())
+    }
     fn begin(&mut self, info: &StreamInfo) -> Result<(), SinkError> {
         self.sinks.iter_mut().try_for_each(|s| s.begin(info))
     }

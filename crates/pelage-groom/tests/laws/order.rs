@@ -1,8 +1,8 @@
 //! Hairs along the surface are the hairs of their indices.
 
 use crate::fixture::{Fixture, collect, collected, kinds, request};
-use pelage_groom::{Order, Plan, Request, write_roots};
-use pelage_strands::{Collect, StrandBuffer};
+use pelage_groom::{Order, Plan, Pose, Request, generate, write_roots};
+use pelage_strands::{Collect, Sink, SinkError, StrandBuffer};
 use std::ops::Range;
 
 fn along(plan: &Plan, hairs: Range<u64>, threads: usize) -> StrandBuffer {
@@ -87,6 +87,37 @@ fn hairs_along_the_surface_follow_their_neighbours() {
     }
 }
 
+/// Collects strands and says that their order is of no matter.
+#[derive(Default)]
+struct AnyOrder(Collect);
+
+impl Sink for AnyOrder {
+    fn takes_any_order(&self) -> bool {
+        true
+    }
+
+    fn write(&mut self, strands: &StrandBuffer) -> Result<(), SinkError> {
+        self.0.write(strands)
+    }
+}
+
+#[test]
+fn sinks_that_take_any_order_get_that_of_the_surface_unless_another_is_asked_for() {
+    let plan = Fixture::default().plan();
+    let found = |order| {
+        let mut sink = AnyOrder::default();
+        let request = Request {
+            order,
+            ..request(0..3000, 1)
+        };
+        let poses = &mut |_| Ok(Pose::default());
+        generate(&plan, &request, poses, &mut sink, &mut |_| true).unwrap();
+        sink.0.strands
+    };
+    assert!(found(Order::Auto) == along(&plan, 0..3000, 1));
+    assert!(found(Order::Index) == collect(&plan, 0..3000, 1));
+}
+
 #[test]
 fn roots_along_the_surface_are_those_of_the_hairs() {
     for fixture in kinds() {
@@ -129,8 +160,8 @@ fn progress_along_the_surface_ends_at_the_number_of_hairs() {
         last = done;
         true
     };
-    let poses = &mut |_| Ok(pelage_groom::Pose::default());
+    let poses = &mut |_| Ok(Pose::default());
     let request = along_request(0..5000, 2);
-    pelage_groom::generate(&plan, &request, poses, &mut Collect::default(), progress).unwrap();
+    generate(&plan, &request, poses, &mut Collect::default(), progress).unwrap();
     assert_eq!(last, 5000);
 }

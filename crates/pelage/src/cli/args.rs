@@ -303,8 +303,10 @@ pub struct RunArgs {
 /// The order in which hairs come.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
 pub enum HairOrder {
-    /// By their numbers: the first of them are a thinner coat.
+    /// By their numbers; along the surface where nothing is written.
     #[default]
+    Auto,
+    /// By their numbers: the first of them are a thinner coat.
     Index,
     /// Neighbours after each other: faster to make, and nearer together in files and renderers.
     Surface,
@@ -313,6 +315,7 @@ pub enum HairOrder {
 impl From<HairOrder> for pelage::Order {
     fn from(order: HairOrder) -> Self {
         match order {
+            HairOrder::Auto => Self::Auto,
             HairOrder::Index => Self::Index,
             HairOrder::Surface => Self::Surface,
         }

@@ -49,8 +49,8 @@ impl Row {
         seconds_warm: f64,
     ) -> Self {
         let suffix = match order {
-            Order::Index => "",
             Order::Surface => ", along the surface",
+            Order::Index | Order::Auto => "",
         };
         let spent = |stage: Stage| (stage.name(), cold.clock.spent(stage).as_secs_f64());
         Self {
@@ -117,8 +117,8 @@ pub fn cold(plan: &Plan, order: Order, threads: usize, runs: usize) -> Result<Co
 pub fn captured(plan: &Plan, order: Order) -> Vec<Capture> {
     let count = plan.count();
     let along = match order {
-        Order::Index => None,
         Order::Surface => plan.roots().along_surface(0..count, CHUNK),
+        Order::Index | Order::Auto => None,
     };
     let chunks = along
         .as_ref()
