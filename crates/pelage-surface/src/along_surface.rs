@@ -20,6 +20,21 @@ const RUN: u64 = 16;
 ///
 /// Stratified roots are listed part by part, in time proportional to their number. Random
 /// ones and blue noise are sorted when this is made, and take 8 bytes a hair.
+///
+/// ```
+/// # use pelage_surface::{AlongSurface, Density, Mesh, PolygonMesh, RootSampler};
+/// # let mesh = Mesh::new(PolygonMesh::sheet(20, 20, |u, v| [u, v, 0.0]))?;
+/// let sampler = RootSampler::new(&mesh, &Density { value: 1.0, map: None }, 0).unwrap();
+/// let along = AlongSurface::new(&sampler, 0..10_000, 1000);
+/// let (mut hairs, mut roots) = (Vec::new(), Vec::new());
+/// for part in 0..along.parts() {
+///     along.part(part, &mut hairs, &mut roots);
+/// }
+/// assert_eq!(roots[0], sampler.root(hairs[0]));
+/// hairs.sort();
+/// assert!(hairs.into_iter().eq(0..10_000));
+/// # Ok::<(), pelage_surface::MeshError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct AlongSurface<'a> {
     source: Source<'a>,

@@ -59,6 +59,26 @@ fn hairs_along_the_surface_are_the_hairs_of_their_indices_bit_for_bit() {
 }
 
 #[test]
+fn neighbours_that_are_weighed_together_are_weighed_as_each_alone() {
+    for guides in [1, 2, 3, 4, 5, 6, 30] {
+        let more = format!("interpolation.guides = {guides}");
+        let fixture = Fixture {
+            more: &more,
+            count: 30_000,
+            ..Fixture::default()
+        };
+        // Of so few hairs by index no two choose among the same guides.
+        let (plan, hairs) = (fixture.plan(), 12_345..12_375);
+        let found = by_index(&along(&plan, 0..30_000, 2));
+        let alone = collect(&plan, hairs.clone(), 1);
+        for (i, hair) in hairs.enumerate() {
+            let hair = hair as usize;
+            assert_eq!(found.strand_points(hair), alone.strand_points(i), "{more}");
+        }
+    }
+}
+
+#[test]
 fn hairs_along_the_surface_are_the_same_bits_for_any_thread_count() {
     for fixture in kinds() {
         let (plan, more) = (fixture.plan(), fixture.more);

@@ -236,8 +236,9 @@ fn finer_table(report: &mut String, families: &[Family]) -> Result<()> {
     writeln!(
         report,
         "## Within finer bounds\n\n\
-         Elements of the fit, at equal arc length, and edges of the polygon, by its nearest points.\n\n\
-         | strands | within | fit | polygon | ratio |\n|---|---|---|---|---|"
+         Elements of the fit, at equal arc length; edges of the polygon and spans of the\n\
+         Catmull-Rom curve, by their nearest points; and the elements over each of them.\n\n\
+         | strands | within | fit | polygon | Catmull-Rom | ratios |\n|---|---|---|---|---|---|"
     )?;
     for family in families
         .iter()
@@ -246,16 +247,21 @@ fn finer_table(report: &mut String, families: &[Family]) -> Result<()> {
         for bound in BOUNDS {
             let fit = family.elements(Method::Fit, bound)?;
             let polygon = family.spans(Spline::Polygon, 1, bound)?;
-            let ratio = fit
-                .zip(polygon)
-                .map_or(f64::NAN, |(fit, edges)| fit / edges);
+            let spline = family.spans(Spline::CatmullRom, 1, bound)?;
+            let ratio = |spans: Option<f64>| {
+                let both = fit.zip(spans);
+                both.map_or(f64::NAN, |(fit, spans)| fit / spans)
+            };
             writeln!(
                 report,
-                "| {} | {} % | {} | {} | {ratio:.2} |",
+                "| {} | {} % | {} | {} | {} | {:.2}, {:.2} |",
                 family.name,
                 100.0 * bound,
                 told(fit),
                 told(polygon),
+                told(spline),
+                ratio(polygon),
+                ratio(spline),
             )?;
         }
     }
