@@ -15,7 +15,7 @@ use crate::drawing::{BATCH, Scratch};
 use crate::lanes::LANES;
 use crate::neighbours::FEW;
 use crate::runs::Run;
-use crate::{RootSampler, Spread, SurfacePoint};
+use crate::{RootSampler, SurfacePoint};
 use fearless_simd::{Level, Simd, dispatch};
 use std::ops::Range;
 
@@ -107,42 +107,56 @@ impl RootSampler {
         drawn: &mut Drawn,
         visit: &mut impl FnMut(&[u64], &[SurfacePoint]),
     ) {
-        if self.sequence().spread() == Spread::Random {
-            return self.draw_alone(simd, runs, drawn, visit);
-        }
         for run in runs {
-            if drawn.count > BATCH {
+            if drawn.listed > BATCH {
+                self.draw_listed(simd, drawn);
                 drawn.pass_to(visit);
             }
-            let free = (
-                &mut drawn.hairs[drawn.count..],
-                &mut drawn.roots[drawn.count..],
-            );
-            self.draw_run(simd, run, free, &mut drawn.scratch);
-            drawn.count += run.count as usize;
+            let (start, count) = (drawn.listed, run.count as usize);
+            let end = start + count.next_multiple_of(LANES);
+            run.write(simd, &mut drawn.hairs[start..end]);
+            if start + count > drawn.drawn + BATCH {
+                self.draw_listed(simd, drawn);
+            }
+            drawn.listed += count;
+            // Runs that lie in many pieces wait until they are a batch; what comes after them
+            // fills it up.
+            let room = (&drawn.hairs[start..end], &mut drawn.roots[start..end]);
+            if start == drawn.drawn && self.draw_near(simd, run, room, &mut drawn.scratch.few) {
+                drawn.drawn = drawn.listed;
+            }
         }
+        self.draw_listed(simd, drawn);
         drawn.pass_to(visit);
     }
 
-    /// The same where every hair is a run of its own, and no neighbour of the next.
+    /// Draws those hairs that are listed and not yet drawn.
     #[inline(always)]
-    fn draw_alone<S: Simd>(
+    fn draw_listed<S: Simd>(&self, simd: S, drawn: &mut Drawn) {
+        let (start, end) = (drawn.drawn, drawn.listed);
+        let end = start + (end - start).next_multiple_of(LANES);
+        let (hairs, roots) = (&drawn.hairs[start..end], &mut drawn.roots[start..end]);
+        if start < end {
+            self.draw(simd, hairs, roots, &mut drawn.scratch);
+        }
+        drawn.drawn = drawn.listed;
+    }
+
+    /// Draws the roots of `run`, [`BATCH`] at most, and gives them.
+    #[inline(always)]
+    fn draw_run<'a, S: Simd>(
         &self,
         simd: S,
-        runs: &[Run],
-        drawn: &mut Drawn,
-        visit: &mut impl FnMut(&[u64], &[SurfacePoint]),
-    ) {
-        for runs in runs.chunks(BATCH) {
-            for (hair, run) in drawn.hairs.iter_mut().zip(runs) {
-                *hair = run.first;
-            }
-            let padded = runs.len().next_multiple_of(LANES);
-            let (hairs, roots) = (&drawn.hairs[..padded], &mut drawn.roots[..padded]);
+        run: &Run,
+        drawn: &'a mut Drawn,
+    ) -> &'a [SurfacePoint] {
+        let padded = (run.count as usize).next_multiple_of(LANES);
+        let (hairs, roots) = (&mut drawn.hairs[..padded], &mut drawn.roots[..padded]);
+        run.write(simd, hairs);
+        if !self.draw_near(simd, run, (hairs, roots), &mut drawn.scratch.few) {
             self.draw(simd, hairs, roots, &mut drawn.scratch);
-            drawn.count = runs.len();
-            drawn.pass_to(visit);
         }
+        &drawn.roots[..run.count as usize]
     }
 
     #[inline(always)]
@@ -212,10 +226,8 @@ impl RootSampler {
                     count: BATCH as u64,
                     number: self.sequence().sample(first).0,
                 };
-                let room = (&mut drawn.hairs[..], &mut drawn.roots[..]);
-                self.draw_run(simd, &run, room, &mut drawn.scratch);
                 let rows = tile[row * ROW..].chunks_mut(step * ROW);
-                for (row, root) in rows.zip(&drawn.roots[..BATCH]) {
+                for (row, root) in rows.zip(self.draw_run(simd, &run, drawn)) {
                     row[column] = *root;
                 }
             }
@@ -238,37 +250,41 @@ impl RootSampler {
         };
         for roots in roots.chunks_mut(BATCH) {
             run.count = roots.len() as u64;
-            let room = (&mut drawn.hairs[..], &mut drawn.roots[..]);
-            self.draw_run(simd, &run, room, &mut drawn.scratch);
-            roots.copy_from_slice(&drawn.roots[..roots.len()]);
+            roots.copy_from_slice(self.draw_run(simd, &run, drawn));
             run.first = run.first.wrapping_add(BATCH as u64);
         }
     }
 }
 
-/// Hairs and their roots, some of them drawn.
+/// Hairs that were listed, and the roots of the first of them.
 struct Drawn {
-    hairs: [u64; 2 * BATCH],
-    roots: [SurfacePoint; 2 * BATCH],
-    count: usize,
+    hairs: [u64; ROOM],
+    roots: [SurfacePoint; ROOM],
+    listed: usize,
+    /// How many roots are drawn.
+    drawn: usize,
     scratch: Scratch,
 }
+
+/// Two batches, and what fills up the last row.
+const ROOM: usize = 2 * BATCH + LANES;
 
 impl Drawn {
     fn new() -> Self {
         Self {
-            hairs: [0; 2 * BATCH],
-            roots: [SurfacePoint::default(); 2 * BATCH],
-            count: 0,
+            hairs: [0; ROOM],
+            roots: [SurfacePoint::default(); ROOM],
+            listed: 0,
+            drawn: 0,
             scratch: Scratch::new(),
         }
     }
 
     #[inline(always)]
     fn pass_to(&mut self, visit: &mut impl FnMut(&[u64], &[SurfacePoint])) {
-        if self.count > 0 {
-            visit(&self.hairs[..self.count], &self.roots[..self.count]);
-            self.count = 0;
+        if self.drawn > 0 {
+            visit(&self.hairs[..self.drawn], &self.roots[..self.drawn]);
+            (self.listed, self.drawn) = (0, 0);
         }
     }
 }

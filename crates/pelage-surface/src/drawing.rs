@@ -17,7 +17,7 @@ pub(crate) const BATCH: usize = 128;
 
 /// What is written and read again while a batch is drawn.
 pub(crate) struct Scratch {
-    few: Few,
+    pub few: Few,
     xs: [u64; BATCH],
     ys: [u32; BATCH],
     picks: Picks<BATCH>,
@@ -39,36 +39,27 @@ impl Scratch {
 }
 
 impl RootSampler {
-    /// Writes the hairs of `run`, [`BATCH`] at most, and their roots, and as many more as fill
-    /// up the [`LANES`].
+    /// Draws the roots of `hairs`, those of `run` up to a multiple of [`LANES`], if they lie in
+    /// few pieces; whether they do.
     #[inline(always)]
-    pub(crate) fn draw_run<S: Simd>(
+    pub(crate) fn draw_near<S: Simd>(
         &self,
         simd: S,
         run: &Run,
-        (hairs, roots): (&mut [u64], &mut [SurfacePoint]),
-        scratch: &mut Scratch,
-    ) {
-        let padded = (run.count as usize).next_multiple_of(LANES);
-        let (hairs, roots) = (&mut hairs[..padded], &mut roots[..padded]);
-        run.write(simd, hairs);
+        (hairs, roots): (&[u64], &mut [SurfacePoint]),
+        few: &mut Few,
+    ) -> bool {
         let (tables, names) = (self.distribution().tables(), self.pieces().names());
-        let near = self.sequence().spread() == Spread::Stratified;
-        if near && scratch.few.find(run.numbers(), tables, names) {
-            self.draw_near(simd, hairs, roots, &scratch.few);
-        } else {
-            self.draw(simd, hairs, roots, scratch);
+        let alone = self.sequence().spread() == Spread::Random;
+        if alone || !few.find(run.numbers(), tables, names) {
+            return false;
         }
-    }
-
-    /// Draws the roots of `hairs`, which lie in few pieces; a multiple of [`LANES`].
-    #[inline(always)]
-    fn draw_near<S: Simd>(&self, simd: S, hairs: &[u64], roots: &mut [SurfacePoint], few: &Few) {
         let (hairs, roots) = (hairs.as_chunks().0, roots.as_chunks_mut().0);
         for (hairs, roots) in hairs.iter().zip(roots) {
             let [upper, lower, y] = self.sequence().samples(simd, hairs);
             few.hold(simd, upper, lower).place(simd, y, roots);
         }
+        true
     }
 
     /// Draws the roots of `hairs` wherever they lie; a multiple of [`LANES`], [`BATCH`] at most.
@@ -131,7 +122,7 @@ impl Run {
 
     /// Writes the indices from the first on.
     #[inline(always)]
-    fn write<S: Simd>(&self, simd: S, hairs: &mut [u64]) {
+    pub(crate) fn write<S: Simd>(&self, simd: S, hairs: &mut [u64]) {
         const HALF: usize = LANES / 2;
         let mut first = [0; HALF];
         for (k, hair) in first.iter_mut().enumerate() {

@@ -65,6 +65,10 @@ impl RootSequence {
         let inside = wanted.low <= start && end <= wanted.high;
         if inside && run.count <= wanted.most {
             visit(run);
+        } else if inside && node.bits < WORD - LEVELS {
+            // Above the last of so many levels, none is short enough to be visited.
+            let levels = (run.count / (wanted.most + 1)).ilog2() + 1;
+            self.list_below(node, levels.min(LEVELS), wanted, visit);
         } else if run.count == 1 {
             let x = self.sample(run.first).0 as u128;
             if inside || wanted.low <= x && x < wanted.high {
@@ -87,7 +91,37 @@ impl RootSequence {
             }
         }
     }
+
+    /// The same of a node whose numbers are all wanted, `levels` levels at once: the branches
+    /// of a level do not wait for each other, as those along one path do.
+    fn list_below(&self, node: Node, levels: u32, wanted: &Interval, visit: &mut impl FnMut(Run)) {
+        let mut residues = [node.residue; 1 << LEVELS];
+        for level in 0..levels {
+            let bits = node.bits + level;
+            // From the last on, since two take the place of one.
+            for k in (0..1 << level).rev() {
+                let residue = residues[k];
+                let own = self.bit(residue, bits) as usize;
+                residues[2 * k + own] = residue;
+                residues[2 * k + 1 - own] = residue | 1 << bits;
+            }
+        }
+        for (k, &residue) in residues[..1 << levels].iter().enumerate() {
+            let child = Node {
+                prefix: node.prefix << levels | k as u128,
+                bits: node.bits + levels,
+                residue,
+            };
+            self.descend(child, wanted, visit);
+        }
+    }
 }
+
+/// Most levels of the tree of prefixes that are listed at once.
+const LEVELS: u32 = 6;
+
+/// Bits of the upper word of the first number.
+const WORD: u32 = 32;
 
 /// Indices that are a step apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -119,8 +119,12 @@ impl RootSequence {
     /// Bit number `bit`, from the highest, of the first number of element `index`.
     #[inline(always)]
     pub(crate) fn bit(&self, index: u64, bit: u32) -> u64 {
-        let [upper, lower] = self.first(index as u32, (index >> 32) as u32);
-        ((lower as u64) << 32 | upper as u64) >> bit & 1
+        let (low, high) = (index as u32, (index >> 32) as u32);
+        let word = match bit {
+            0..32 => self.upper.apply(low) >> bit,
+            _ => self.first(low, high)[1] >> (bit - 32),
+        };
+        (word & 1) as u64
     }
 }
 
