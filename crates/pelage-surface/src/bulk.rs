@@ -4,29 +4,27 @@
 //! after the other waits for memory at every step. But all hairs whose indices agree in
 //! the lower k bits share the first k bits of their first number (see
 //! [`RootSequence`](crate::RootSequence)): they are neighbours. A block of hairs is
-//! therefore drawn in tiles. A tile row is [`LANES`] such neighbours, whose tables lie
+//! therefore drawn in tiles. A tile row is [`ROWS`] such neighbours, whose tables lie
 //! within a few kilobytes; its columns are hairs that follow each other, so that a tile
 //! is copied out in runs. What is drawn for a hair does not depend on the tiles.
 //!
 //! Where the order is of no matter, the runs of neighbours are drawn as they come along
 //! the surface.
 
+use crate::drawing::{BATCH, Scratch};
+use crate::lanes::LANES;
 use crate::neighbours::FEW;
-use crate::sequence::Run;
+use crate::runs::Run;
 use crate::{RootSampler, SurfacePoint};
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, Simd, dispatch};
 use std::ops::Range;
 
 /// Neighbours in a row of a tile: enough that waiting for a row's first tables is little
 /// beside drawing it.
-const LANES: usize = 512;
-
-/// Roots drawn at once: their numbers stay in the first-level cache, and what one pass
-/// writes is on its way there when the next one reads it.
-const BATCH: usize = 128;
+const ROWS: usize = 512;
 
 /// Batches of a row of a tile.
-const BATCHES: usize = LANES / BATCH;
+const BATCHES: usize = ROWS / BATCH;
 
 /// Runs of an interval that are listed before they are drawn: drawing is compiled for the
 /// processor at hand, and visitors are not.
@@ -60,8 +58,7 @@ impl RootSampler {
     /// Writes the roots of the hairs from `first` on to `roots`.
     pub fn fill(&self, first: u64, roots: &mut [SurfacePoint]) {
         dispatch!(Level::new(), simd => {
-            let _ = simd;
-            self.fill_blocks(first, roots)
+            self.fill_blocks(simd, first, roots)
         });
     }
 
@@ -88,59 +85,92 @@ impl RootSampler {
         mut visit: impl FnMut(&[u64], &[SurfacePoint]),
     ) {
         let mut runs = Vec::with_capacity(RUNS);
-        let listed = &mut |run| {
+        let mut drawn = Drawn::new();
+        let mut draw = |runs: &[Run]| {
+            dispatch!(Level::new(), simd => self.draw_runs(simd, runs, &mut drawn, &mut visit));
+        };
+        self.sequence().runs_in(interval, hairs, most, &mut |run| {
             runs.push(run);
             if runs.len() == RUNS {
-                self.draw_runs(&runs, &mut visit);
+                draw(&runs);
                 runs.clear();
             }
-        };
-        self.sequence().runs_in(interval, hairs, most, listed);
-        self.draw_runs(&runs, &mut visit);
-    }
-
-    /// Runs are shorter than a batch more often than not; so a batch takes what it can of
-    /// those that come along.
-    fn draw_runs(&self, runs: &[Run], visit: &mut impl FnMut(&[u64], &[SurfacePoint])) {
-        let mut hairs = [0; BATCH];
-        let mut roots = [SurfacePoint::default(); BATCH];
-        dispatch!(Level::new(), simd => {
-            let _ = simd;
-            let mut filled = 0;
-            for run in runs {
-                let mut next = 0;
-                while next < run.count {
-                    let now = (BATCH - filled).min((run.count - next) as usize);
-                    for (k, hair) in hairs[filled..filled + now].iter_mut().enumerate() {
-                        *hair = run.index(next + k as u64);
-                    }
-                    filled += now;
-                    next += now as u64;
-                    if filled == BATCH {
-                        self.draw::<BATCH, true>(|k| hairs[k], &mut roots);
-                        visit(&hairs, &roots);
-                        filled = 0;
-                    }
-                }
-            }
-            if filled > 0 {
-                self.draw::<BATCH, true>(|k| hairs[k], &mut roots);
-                visit(&hairs[..filled], &roots[..filled]);
-            }
         });
+        draw(&runs);
     }
 
     #[inline(always)]
-    fn fill_blocks(&self, mut first: u64, mut roots: &mut [SurfacePoint]) {
+    fn draw_runs<S: Simd>(
+        &self,
+        simd: S,
+        runs: &[Run],
+        drawn: &mut Drawn,
+        visit: &mut impl FnMut(&[u64], &[SurfacePoint]),
+    ) {
+        for run in runs {
+            if drawn.listed > BATCH {
+                self.draw_listed(simd, drawn);
+                drawn.pass_to(visit);
+            }
+            let (start, count) = (drawn.listed, run.count as usize);
+            let end = start + count.next_multiple_of(LANES);
+            run.write(simd, &mut drawn.hairs[start..end]);
+            if start + count > drawn.drawn + BATCH {
+                self.draw_listed(simd, drawn);
+            }
+            drawn.listed += count;
+            // Runs that lie in many pieces wait until they are a batch; what comes after them
+            // fills it up.
+            let room = (&drawn.hairs[start..end], &mut drawn.roots[start..end]);
+            if start == drawn.drawn && self.draw_near(simd, run, room, &mut drawn.scratch.few) {
+                drawn.drawn = drawn.listed;
+            }
+        }
+        self.draw_listed(simd, drawn);
+        drawn.pass_to(visit);
+    }
+
+    /// Draws those hairs that are listed and not yet drawn.
+    #[inline(always)]
+    fn draw_listed<S: Simd>(&self, simd: S, drawn: &mut Drawn) {
+        let (start, end) = (drawn.drawn, drawn.listed);
+        let end = start + (end - start).next_multiple_of(LANES);
+        let (hairs, roots) = (&drawn.hairs[start..end], &mut drawn.roots[start..end]);
+        if start < end {
+            self.draw(simd, hairs, roots, &mut drawn.scratch);
+        }
+        drawn.drawn = drawn.listed;
+    }
+
+    /// Draws the roots of `run`, [`BATCH`] at most, and gives them.
+    #[inline(always)]
+    fn draw_run<'a, S: Simd>(
+        &self,
+        simd: S,
+        run: &Run,
+        drawn: &'a mut Drawn,
+    ) -> &'a [SurfacePoint] {
+        let padded = (run.count as usize).next_multiple_of(LANES);
+        let (hairs, roots) = (&mut drawn.hairs[..padded], &mut drawn.roots[..padded]);
+        run.write(simd, hairs);
+        if !self.draw_near(simd, run, (hairs, roots), &mut drawn.scratch.few) {
+            self.draw(simd, hairs, roots, &mut drawn.scratch);
+        }
+        &drawn.roots[..run.count as usize]
+    }
+
+    #[inline(always)]
+    fn fill_blocks<S: Simd>(&self, simd: S, mut first: u64, mut roots: &mut [SurfacePoint]) {
         let mut tile = Vec::new();
+        let mut drawn = Drawn::new();
         while !roots.is_empty() {
             let block = largest_block(first, roots.len());
             let (now, later) = roots.split_at_mut(block);
-            if block >= LANES * RUN {
-                tile.resize(LANES * ROW, SurfacePoint::default());
-                self.fill_tiles(first, now, &mut tile);
+            if block >= ROWS * RUN {
+                tile.resize(ROWS * ROW, SurfacePoint::default());
+                self.fill_tiles(simd, first, now, (&mut tile, &mut drawn));
             } else {
-                self.fill_in_order(first, now);
+                self.fill_in_order(simd, first, now, &mut drawn);
             }
             first += block as u64;
             roots = later;
@@ -148,12 +178,18 @@ impl RootSampler {
     }
 
     #[inline(always)]
-    fn fill_tiles(&self, first: u64, roots: &mut [SurfacePoint], tile: &mut [SurfacePoint]) {
-        let stride = roots.len() / LANES;
+    fn fill_tiles<S: Simd>(
+        &self,
+        simd: S,
+        first: u64,
+        roots: &mut [SurfacePoint],
+        (tile, drawn): (&mut [SurfacePoint], &mut Drawn),
+    ) {
+        let stride = roots.len() / ROWS;
         for start in (0..stride).step_by(RUN) {
             for columns in (0..RUN).step_by(LINE) {
                 let hair = first + (start + columns) as u64;
-                self.fill_line(hair, stride as u64, &mut tile[columns..]);
+                self.fill_line(simd, hair, stride as u64, (&mut tile[columns..], drawn));
             }
             for (k, run) in tile.chunks_exact(ROW).enumerate() {
                 roots[k * stride + start..][..RUN].copy_from_slice(&run[..RUN]);
@@ -164,36 +200,34 @@ impl RootSampler {
     /// Fills the first [`LINE`] columns of `tile`: the rows of hairs that are `stride` apart,
     /// from `first` on.
     #[inline(always)]
-    fn fill_line(&self, first: u64, stride: u64, tile: &mut [SurfacePoint]) {
-        let are_near = |column: usize| {
-            let (hair, bits) = (first + column as u64, stride.trailing_zeros());
-            self.are_neighbours(hair, bits, FEW * BATCHES as u32)
-        };
+    fn fill_line<S: Simd>(
+        &self,
+        simd: S,
+        first: u64,
+        stride: u64,
+        (tile, drawn): (&mut [SurfacePoint], &mut Drawn),
+    ) {
+        let mut near = true;
+        for column in 0..LINE as u64 {
+            let bits = stride.trailing_zeros();
+            near &= self.are_neighbours(first + column, bits, (FEW * BATCHES) as u32);
+        }
         // Where a row lies in few pieces, each batch takes hairs as near as can be, which lie
         // in fewer; elsewhere each takes some of everywhere, so that the first waits for the
         // tables of all.
-        match (0..LINE).all(are_near) {
-            true => self.fill_batches::<BATCHES, 1, true>(first, stride, tile),
-            false => self.fill_batches::<1, BATCH, false>(first, stride, tile),
-        }
-    }
-
-    /// The same in batches of hairs `STEP` rows apart, each `NEXT` rows behind the one before.
-    #[inline(always)]
-    fn fill_batches<const STEP: usize, const NEXT: usize, const NEAR: bool>(
-        &self,
-        first: u64,
-        stride: u64,
-        tile: &mut [SurfacePoint],
-    ) {
-        let mut batch = [SurfacePoint::default(); BATCH];
+        let (step, next) = if near { (BATCHES, 1) } else { (1, BATCH) };
         for number in 0..BATCHES {
-            let row = number * NEXT;
+            let row = number * next;
             for column in 0..LINE {
-                let hair = first + column as u64 + row as u64 * stride;
-                self.draw::<BATCH, NEAR>(|k| hair + (k * STEP) as u64 * stride, &mut batch);
-                let rows = tile[row * ROW..].chunks_mut(STEP * ROW);
-                for (row, root) in rows.zip(&batch) {
+                let first = first + column as u64 + row as u64 * stride;
+                let run = Run {
+                    first,
+                    step: step as u64 * stride,
+                    count: BATCH as u64,
+                    number: self.sequence().sample(first).0,
+                };
+                let rows = tile[row * ROW..].chunks_mut(step * ROW);
+                for (row, root) in rows.zip(self.draw_run(simd, &run, drawn)) {
                     row[column] = *root;
                 }
             }
@@ -201,16 +235,56 @@ impl RootSampler {
     }
 
     #[inline(always)]
-    fn fill_in_order(&self, first: u64, roots: &mut [SurfacePoint]) {
-        let (rows, rest) = roots.as_chunks_mut::<BATCH>();
-        for (k, row) in rows.iter_mut().enumerate() {
-            let hair = first + (BATCH * k) as u64;
-            self.draw::<BATCH, false>(|k| hair + k as u64, row);
+    fn fill_in_order<S: Simd>(
+        &self,
+        simd: S,
+        first: u64,
+        roots: &mut [SurfacePoint],
+        drawn: &mut Drawn,
+    ) {
+        let mut run = Run {
+            first,
+            step: 1,
+            count: BATCH as u64,
+            number: 0,
+        };
+        for roots in roots.chunks_mut(BATCH) {
+            run.count = roots.len() as u64;
+            roots.copy_from_slice(self.draw_run(simd, &run, drawn));
+            run.first = run.first.wrapping_add(BATCH as u64);
         }
-        let done = BATCH * rows.len();
-        for (k, root) in rest.iter_mut().enumerate() {
-            let hair = first + (done + k) as u64;
-            self.draw::<1, false>(|_| hair, std::array::from_mut(root));
+    }
+}
+
+/// Hairs that were listed, and the roots of the first of them.
+struct Drawn {
+    hairs: [u64; ROOM],
+    roots: [SurfacePoint; ROOM],
+    listed: usize,
+    /// How many roots are drawn.
+    drawn: usize,
+    scratch: Scratch,
+}
+
+/// Two batches, and what fills up the last row.
+const ROOM: usize = 2 * BATCH + LANES;
+
+impl Drawn {
+    fn new() -> Self {
+        Self {
+            hairs: [0; ROOM],
+            roots: [SurfacePoint::default(); ROOM],
+            listed: 0,
+            drawn: 0,
+            scratch: Scratch::new(),
+        }
+    }
+
+    #[inline(always)]
+    fn pass_to(&mut self, visit: &mut impl FnMut(&[u64], &[SurfacePoint])) {
+        if self.drawn > 0 {
+            visit(&self.hairs[..self.drawn], &self.roots[..self.drawn]);
+            (self.listed, self.drawn) = (0, 0);
         }
     }
 }
@@ -222,7 +296,7 @@ fn largest_block(first: u64, count: usize) -> usize {
     let fits = 1usize << count.ilog2().min(LARGEST);
     let aligned = 1usize << first.trailing_zeros().min(LARGEST);
     let block = fits.min(aligned);
-    let smallest = LANES * RUN;
+    let smallest = ROWS * RUN;
     if block >= smallest {
         return block;
     }
@@ -290,7 +364,7 @@ mod tests {
         assert_eq!(largest_block(0, 1 << 23), 1 << 22);
         assert_eq!(largest_block(1 << 14, 1 << 22), 1 << 14);
         assert_eq!(largest_block(0, 100), 100);
-        assert_eq!(largest_block(5, 100_000), LANES * RUN - 5);
+        assert_eq!(largest_block(5, 100_000), ROWS * RUN - 5);
         assert_eq!(largest_block(u64::MAX - 3, 3), 3);
     }
 }

@@ -156,47 +156,39 @@ impl<'a> Tables<'a> {
     /// what is decided needs no branch: a decision guessed wrong throws away what was begun
     /// to be read after it.
     #[inline(always)]
-    pub(crate) fn locate_all<const N: usize>(
-        self,
-        fractions: &[u64; N],
-        indices: &mut [u32; N],
-        rests: &mut Rests<N>,
-    ) {
-        for k in 0..N {
-            indices[k] = self.grid[(fractions[k] >> self.shift) as usize];
+    pub(crate) fn locate_all<const N: usize>(self, fractions: &[u64], picks: &mut Picks<N>) {
+        let picks = picks.first(fractions.len());
+        for (cell, &fraction) in picks.indices.iter_mut().zip(fractions) {
+            *cell = self.grid[(fraction >> self.shift) as usize];
         }
-        let near = indices.map(|first| self.four(first as usize));
+        for (near, &first) in picks.near.iter_mut().zip(&*picks.indices) {
+            *near = self.four(first as usize);
+        }
         let mut far = false;
-        for k in 0..N {
-            let (fraction, [first, second, third, fourth]) = (fractions[k], near[k]);
+        for (k, &fraction) in fractions.iter().enumerate() {
+            let [first, second, third, fourth] = picks.near[k];
             let (one, two) = (second <= fraction, third <= fraction);
             let start = if one { second } else { first };
             let end = if one { third } else { second };
             let start = if two { third } else { start };
             let end = if two { fourth } else { end };
-            rests.set(k, inside(fraction, (start, end - start)));
-            indices[k] += one as u32 + two as u32;
+            [picks.insides[k], picks.widths[k]] = inside(fraction, (start, end - start));
+            picks.indices[k] += one as u32 + two as u32;
             far |= fourth <= fraction;
         }
         if far {
-            self.bisect_all(fractions, &near, indices, rests);
+            self.bisect_all(fractions, picks);
         }
     }
 
     /// Looks further for those that are not in the first three shares.
     #[inline(never)]
-    fn bisect_all<const N: usize>(
-        self,
-        fractions: &[u64; N],
-        near: &[[u64; 4]; N],
-        indices: &mut [u32; N],
-        rests: &mut Rests<N>,
-    ) {
-        for (k, (&fraction, near)) in fractions.iter().zip(near).enumerate() {
-            if near[3] <= fraction {
+    fn bisect_all(self, fractions: &[u64], picks: FirstPicks) {
+        for (k, &fraction) in fractions.iter().enumerate() {
+            if picks.near[k][3] <= fraction {
                 let (found, share) = self.share_around(fraction);
-                indices[k] = found as u32;
-                rests.set(k, inside(fraction, share));
+                picks.indices[k] = found as u32;
+                [picks.insides[k], picks.widths[k]] = inside(fraction, share);
             }
         }
     }
@@ -216,10 +208,10 @@ impl<'a> Tables<'a> {
         element(most) - element(least)
     }
 
-    /// Where element `first` and the `N - 1` after it begin, if there are as many.
+    /// Where element `first` and those after it begin; at the very end, where the last ends.
     #[inline(always)]
-    pub(crate) fn row<const N: usize>(self, first: usize) -> Option<&'a [u64; N]> {
-        self.starts.get(first..)?.first_chunk()
+    pub(crate) fn starts(self, first: usize) -> &'a [u64] {
+        &self.starts[first..self.starts.len() + 1 - PADDING]
     }
 
     /// The starts from element `first` on.
@@ -249,30 +241,43 @@ impl<'a> Tables<'a> {
     }
 }
 
-/// How far into their shares many fractions fell, and the widths of those, as
-/// [`locate`](Tables::locate) gives them.
-pub(crate) struct Rests<const N: usize> {
-    insides: [i32; N],
-    widths: [i32; N],
+/// What is found of up to `N` fractions.
+pub(crate) struct Picks<const N: usize> {
+    pub indices: [u32; N],
+    /// How far into their shares they fell, and the widths of those, as
+    /// [`locate`](Tables::locate) gives them.
+    pub insides: [i32; N],
+    pub widths: [i32; N],
+    /// Where the elements begin that each may lie in.
+    near: [[u64; 4]; N],
 }
 
-impl<const N: usize> Rests<N> {
+/// The first of many [`Picks`].
+struct FirstPicks<'a> {
+    indices: &'a mut [u32],
+    insides: &'a mut [i32],
+    widths: &'a mut [i32],
+    near: &'a mut [[u64; 4]],
+}
+
+impl<const N: usize> Picks<N> {
     pub(crate) fn new() -> Self {
         Self {
+            indices: [0; N],
             insides: [0; N],
             widths: [1; N],
+            near: [[0; 4]; N],
         }
     }
 
     #[inline(always)]
-    pub(crate) fn set(&mut self, k: usize, [inside, width]: [i32; 2]) {
-        (self.insides[k], self.widths[k]) = (inside, width);
-    }
-
-    /// Number `k`, as a part of the width.
-    #[inline(always)]
-    pub(crate) fn part(&self, k: usize) -> f32 {
-        self.insides[k] as f32 / self.widths[k] as f32
+    fn first(&mut self, count: usize) -> FirstPicks<'_> {
+        FirstPicks {
+            indices: &mut self.indices[..count],
+            insides: &mut self.insides[..count],
+            widths: &mut self.widths[..count],
+            near: &mut self.near[..count],
+        }
     }
 }
 
@@ -280,9 +285,14 @@ impl<const N: usize> Rests<N> {
 /// [`locate`](Tables::locate) gives them.
 #[inline(always)]
 pub(crate) fn inside(fraction: u64, (start, width): (u64, u64)) -> [i32; 2] {
-    let width = width.max(1);
-    let cut = 33u32.saturating_sub(width.leading_zeros());
+    let (width, cut) = (width.max(1), cut(width));
     [((fraction - start) >> cut) as i32, (width >> cut) as i32]
+}
+
+/// Lower bits that a share of `width` is cut by, so that 31 are left.
+#[inline(always)]
+pub(crate) fn cut(width: u64) -> u32 {
+    33u32.saturating_sub(width.leading_zeros())
 }
 
 /// The element among `first..=last` in whose share `fraction` falls. Takes no more than
@@ -363,12 +373,12 @@ mod tests {
             bits in 1u32..8,
         ) {
             let d = Distribution::with_cells(&weights, bits).unwrap();
-            let (mut indices, mut rests) = ([0; 16], Rests::new());
-            d.tables().locate_all(&fractions, &mut indices, &mut rests);
+            let mut picks = Picks::<16>::new();
+            d.tables().locate_all(&fractions, &mut picks);
             for k in 0..16 {
                 let (index, share) = d.tables().share_around(fractions[k]);
-                prop_assert_eq!(indices[k] as usize, index);
-                let rest = [rests.insides[k], rests.widths[k]];
+                prop_assert_eq!(picks.indices[k] as usize, index);
+                let rest = [picks.insides[k], picks.widths[k]];
                 prop_assert_eq!(rest, inside(fractions[k], share));
             }
         }

@@ -6,10 +6,12 @@
 //! in that order.
 
 use crate::Mesh;
+use bytemuck::{Pod, Zeroable};
 use pelage_curves::{Vec2, Vec3, any_perpendicular};
 
 /// A place on a surface: a triangle and the weights of its corners.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
 pub struct SurfacePoint {
     /// Triangle of the mesh.
     pub triangle: u32,

@@ -5,105 +5,133 @@
 //! few texels outshine all others, they share two or three pieces. Which one each is in is
 //! then a matter of a few comparisons, which processors make of many at once.
 
-use crate::distribution::{Rests, Tables, inside};
-use crate::part::Packed;
+use crate::distribution::{Tables, cut};
+use crate::lanes::{Found, float};
+use crate::part::Part;
 use crate::pieces::Names;
+use fearless_simd::{Select, Simd, SimdBase, f32x16, u32x16};
 
-/// Pieces that follow each other are compared where they are less than these, or little more:
-/// from about so many on looking them up is faster.
-pub(crate) const FEW: u32 = 8;
+/// Pieces that follow each other are compared where they are no more than these: from about so
+/// many on looking them up is faster.
+pub(crate) const FEW: usize = 8;
 
-/// In which pieces `N` places lie.
-pub(crate) struct Found<const N: usize> {
-    /// Triangles, or splits (see [`Names`]).
-    pub hosts: [u32; N],
-    pub parts: [Packed; N],
-    pub rests: Rests<N>,
+/// Pieces that follow each other, and hold all places that are looked for.
+pub(crate) struct Few {
+    pieces: [Near; FEW],
+    count: usize,
 }
 
-impl<const N: usize> Found<N> {
-    #[inline(always)]
-    fn none() -> Self {
+/// A piece and its share.
+#[derive(Clone, Copy)]
+struct Near {
+    /// Words of the fraction it begins at.
+    upper: u32,
+    lower: u32,
+    /// Bits by which the share is too wide (see [`Tables::locate`]), and the width without.
+    cut: u32,
+    width: f32,
+    triangle: u32,
+    part: Part,
+}
+
+impl Few {
+    pub(crate) fn new() -> Self {
+        let none = Near {
+            upper: 0,
+            lower: 0,
+            cut: 0,
+            width: 1.0,
+            triangle: 0,
+            part: Part::WHOLE,
+        };
         Self {
-            hosts: [0; N],
-            parts: [Packed::default(); N],
-            rests: Rests::new(),
+            pieces: [none; FEW],
+            count: 0,
         }
     }
 
-    /// The pieces of the fractions `xs`, looked up one by one.
+    /// Takes the pieces of the fractions `least` to `most`; whether they are few.
     #[inline(always)]
-    pub(crate) fn anywhere(xs: &[u64; N], tables: Tables, names: Names) -> Self {
-        let mut found = Self::none();
-        let mut pieces = [0; N];
-        tables.locate_all(xs, &mut pieces, &mut found.rests);
-        names.get_all(&pieces, &mut found.hosts, &mut found.parts);
-        found
-    }
-
-    /// The pieces of the fractions `xs`, which may well be few. Asking costs a few percent where
-    /// they are not.
-    #[inline(always)]
-    pub(crate) fn near(xs: &[u64; N], tables: Tables, names: Names) -> Self {
-        let mut found = Self::none();
-        let (mut least, mut most) = (u64::MAX, 0);
-        for &x in xs {
-            (least, most) = (x.min(least), x.max(most));
-        }
+    pub(crate) fn find(&mut self, [least, most]: [u64; 2], tables: Tables, names: Names) -> bool {
         // The grid alone tells; waiting for the starts would hold up the many that look up.
-        let first = match tables.between(least, most) < FEW {
-            true => tables.share_around(least).0,
-            false => usize::MAX,
-        };
-        if let Some(row) = Row::<4>::new(first, most, tables, names) {
-            row.find(xs, &mut found);
-        } else if let Some(row) = Row::<{ FEW as usize }>::new(first, most, tables, names) {
-            row.find(xs, &mut found);
-        } else {
-            return Self::anywhere(xs, tables, names);
+        if tables.between(least, most) as usize >= FEW {
+            return false;
         }
+        let first = tables.share_around(least).0;
+        self.count = 0;
+        for (k, share) in tables.starts(first).array_windows().enumerate() {
+            let &[start, end] = share;
+            // Two at a time: whether there is a second would be guessed wrong at every other run.
+            if k > 0 && k % 2 == 0 && start > most {
+                break;
+            }
+            if k == FEW {
+                return false;
+            }
+            self.pieces[k] = Near::new(names.get(first + k), start, end - start);
+            self.count = k + 1;
+        }
+        true
+    }
+
+    /// In which of the pieces places lie, of whose fractions the words are given.
+    #[inline(always)]
+    pub(crate) fn hold<S: Simd>(&self, simd: S, upper: u32x16<S>, lower: u32x16<S>) -> Found<S> {
+        let (first, others) = match self.pieces[..self.count].split_first() {
+            Some(pieces) => pieces,
+            None => (&self.pieces[0], &[][..]),
+        };
+        let number = |x: f32| f32x16::splat(simd, x);
+        let part = first.part;
+        let mut found = Found {
+            triangle: u32x16::splat(simd, first.triangle),
+            origin: [number(part.origin[0]), number(part.origin[1])],
+            size: number(part.size),
+            inside: number(0.0),
+            width: number(first.width),
+        };
+        let mut inside = first.inside(simd, upper, lower);
+        for piece in others {
+            let (start, below) = (u32x16::splat(simd, piece.upper), lower.simd_lt(piece.lower));
+            let after = upper.simd_gt(start) | (upper.simd_eq(start) & !below);
+            let part = piece.part;
+            inside = after.select(piece.inside(simd, upper, lower), inside);
+            found.triangle = after.select(u32x16::splat(simd, piece.triangle), found.triangle);
+            found.origin[0] = after.select(number(part.origin[0]), found.origin[0]);
+            found.origin[1] = after.select(number(part.origin[1]), found.origin[1]);
+            found.size = after.select(number(part.size), found.size);
+            found.width = after.select(number(piece.width), found.width);
+        }
+        found.inside = float(inside);
         found
     }
 }
 
-/// Pieces that follow each other; the last only ends the one before.
-struct Row<const W: usize> {
-    starts: [u64; W],
-    hosts: [u32; W],
-    parts: [Packed; W],
-}
-
-impl<const W: usize> Row<W> {
-    /// The pieces from `first` on, if `most` lies before the last of them.
+impl Near {
     #[inline(always)]
-    fn new(first: usize, most: u64, tables: Tables, names: Names) -> Option<Self> {
-        let starts = *tables.row(first)?;
-        let (hosts, parts) = names.row(first)?;
-        let row = Self {
-            starts,
-            hosts,
-            parts,
-        };
-        (starts[W - 1] > most).then_some(row)
+    fn new((triangle, part): (u32, Part), start: u64, width: u64) -> Self {
+        let cut = cut(width);
+        Self {
+            upper: (start >> 32) as u32,
+            lower: start as u32,
+            cut,
+            width: (width.max(1) >> cut) as f32,
+            triangle,
+            part,
+        }
     }
 
+    /// How far into the share fractions fall; any number for those before.
     #[inline(always)]
-    fn find<const N: usize>(&self, xs: &[u64; N], found: &mut Found<N>) {
-        let starts = self.starts;
-        for (k, &x) in xs.iter().enumerate() {
-            let (mut start, mut end) = (starts[0], starts[W - 1]);
-            let (mut host, mut part) = (self.hosts[0], self.parts[0]);
-            for (i, &begin) in starts.iter().enumerate().skip(1) {
-                let after = begin <= x;
-                start = if after { begin } else { start };
-                host = if after { self.hosts[i] } else { host };
-                part = if after { self.parts[i] } else { part };
-            }
-            for &begin in starts[1..].iter().rev() {
-                end = if begin <= x { end } else { begin };
-            }
-            (found.hosts[k], found.parts[k]) = (host, part);
-            found.rests.set(k, inside(x, (start, end - start)));
+    fn inside<S: Simd>(&self, simd: S, upper: u32x16<S>, lower: u32x16<S>) -> u32x16<S> {
+        let (zero, one) = (u32x16::splat(simd, 0), u32x16::splat(simd, 1));
+        let borrow = lower.simd_lt(self.lower).select(one, zero);
+        let (upper, lower) = (upper - self.upper - borrow, lower - self.lower);
+        match self.cut {
+            // Nothing is in the upper word of a share that is not cut.
+            0 => lower,
+            1..32 => upper << (32 - self.cut) | lower >> self.cut,
+            _ => upper >> (self.cut - 32),
         }
     }
 }
@@ -114,6 +142,7 @@ mod tests {
     use crate::Distribution;
     use crate::pieces::Pieces;
     use crate::subdivide::Piece;
+    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
 
     proptest! {
@@ -127,14 +156,24 @@ mod tests {
             let pieces: Vec<Piece> = (0..weights.len()).map(piece).collect();
             let pieces = Pieces::new(&pieces, weights.len() as u32).unwrap();
             let xs = dice.map(|x| middle.saturating_add(x >> width));
-            let found = Found::near(&xs, distribution.tables(), pieces.names());
+            let (least, most) = (xs.iter().min().unwrap(), xs.iter().max().unwrap());
+            let mut few = Few::new();
+            if !few.find([*least, *most], distribution.tables(), pieces.names()) {
+                return Ok(());
+            }
+            let (upper, lower) = (xs.map(|x| (x >> 32) as u32), xs.map(|x| x as u32));
+            dispatch!(Level::new(), simd => {
+                let [upper, lower] = [upper, lower].map(|x| u32x16::load_array(simd, x));
+                let found = few.hold(simd, upper, lower);
             for (k, &x) in xs.iter().enumerate() {
                 let (index, [inside, width]) = distribution.tables().locate(x);
                 let (triangle, part) = pieces.get(index);
-                prop_assert_eq!(found.hosts[k], triangle);
-                prop_assert_eq!(found.parts[k].part(), part);
-                prop_assert_eq!(found.rests.part(k), inside as f32 / width as f32);
+                assert_eq!(found.triangle[k], triangle);
+                assert_eq!([found.origin[0][k], found.origin[1][k]], part.origin);
+                assert_eq!(found.size[k], part.size);
+                assert_eq!([found.inside[k], found.width[k]], [inside as f32, width as f32]);
             }
+            });
         }
     }
 }

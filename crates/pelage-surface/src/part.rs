@@ -4,6 +4,8 @@
 //! parts of part i.
 
 use crate::Mesh;
+use crate::lanes::float;
+use fearless_simd::{Bytes, Simd, SimdInt, f32x16, i32x16, u32x16};
 use pelage_curves::Vec3;
 
 /// Depth at which cutting stops whatever the map: 4^12 pieces a triangle, the
@@ -83,7 +85,7 @@ impl Part {
 /// A part of depth [`TABLE_DEPTH`] at most in one word, from which processors make many
 /// parts at once: its origin and size in units of the smallest part, a byte each.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Packed(u32);
+pub(crate) struct Packed(pub u32);
 
 impl Packed {
     pub(crate) fn new(part: Part) -> Self {
@@ -99,6 +101,18 @@ impl Packed {
             origin: [unit(self.0 & 0xff), unit(self.0 >> 8 & 0xff)],
             size: ((self.0 << 8) as i32 >> 24) as f32 * (1.0 / UNITS),
         }
+    }
+
+    /// The same of parts side by side: the two coordinates of the origin and the size.
+    #[inline(always)]
+    pub(crate) fn unpacked<S: Simd>(parts: u32x16<S>) -> [f32x16<S>; 3] {
+        let size = (parts << 8).bitcast::<i32x16<S>>() >> 24;
+        let unit = 1.0 / UNITS;
+        [
+            float(parts & 0xff) * unit,
+            float(parts >> 8 & 0xff) * unit,
+            size.to_float::<f32x16<S>>() * unit,
+        ]
     }
 }
 

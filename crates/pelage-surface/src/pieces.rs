@@ -6,8 +6,10 @@
 //! map), parts that are too deep are named from a *split*: a part of the triangle that
 //! is listed as if it were one more triangle.
 
+use crate::lanes::LANES;
 use crate::part::{Packed, Part, TABLE_DEPTH, first_part, parts};
 use crate::subdivide::Piece;
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, u32x16};
 use std::collections::HashMap;
 
 /// The pieces of a surface, by their index along the distribution.
@@ -139,51 +141,34 @@ impl Names<'_> {
 
     /// Hosts and packed parts of `pieces`.
     #[inline(always)]
-    pub(crate) fn get_all<const N: usize>(
-        self,
-        pieces: &[u32; N],
-        hosts: &mut [u32; N],
-        parts: &mut [Packed; N],
-    ) {
-        for k in 0..N {
-            let code = self.codes[pieces[k] as usize];
-            (hosts[k], parts[k]) = (code >> self.part_bits, self.packed(code));
+    pub(crate) fn get_all(self, pieces: &[u32], hosts: &mut [u32], parts: &mut [u32]) {
+        for ((&piece, host), part) in pieces.iter().zip(hosts).zip(parts) {
+            let code = self.codes[piece as usize];
+            (*host, *part) = (code >> self.part_bits, self.packed(code).0);
         }
-    }
-
-    /// Hosts and packed parts of the `N` pieces from `first` on.
-    #[inline(always)]
-    pub(crate) fn row<const N: usize>(self, first: usize) -> Option<([u32; N], [Packed; N])> {
-        let codes: &[u32; N] = self.codes.get(first..)?.first_chunk()?;
-        Some((
-            codes.map(|code| code >> self.part_bits),
-            codes.map(|code| self.packed(code)),
-        ))
     }
 
     /// Triangles and parts of those `hosts` and `packed`: of the parts the two coordinates
     /// of the origin and the size.
     #[inline(always)]
-    pub(crate) fn unpacked<const N: usize>(
+    pub(crate) fn unpacked<S: Simd>(
         self,
-        mut hosts: [u32; N],
-        packed: &[Packed; N],
-    ) -> ([u32; N], [[f32; N]; 3]) {
-        let [mut u, mut v, mut size] = [[0.0; N]; 3];
-        let mut highest = 0;
-        for k in 0..N {
-            let part = packed[k].part();
-            ([u[k], v[k]], size[k]) = (part.origin, part.size);
-            highest = hosts[k].max(highest);
-        }
-        if highest >= self.triangles {
-            for k in 0..N {
-                if let Some((triangle, part)) = self.below(hosts[k], packed[k].part()) {
-                    (hosts[k], [u[k], v[k]], size[k]) = (triangle, part.origin, part.size);
+        simd: S,
+        hosts: &[u32; LANES],
+        packed: &[u32; LANES],
+    ) -> (u32x16<S>, [f32x16<S>; 3]) {
+        let mut triangles = u32x16::load_array_ref(simd, hosts);
+        let mut part = Packed::unpacked(u32x16::load_array_ref(simd, packed));
+        if triangles.simd_ge(self.triangles).any_true() {
+            for k in 0..LANES {
+                if let Some((triangle, own)) = self.below(hosts[k], Packed(packed[k]).part()) {
+                    triangles[k] = triangle;
+                    [part[0][k], part[1][k]] = own.origin;
+                    part[2][k] = own.size;
                 }
             }
         }
-        (hosts, [u, v, size])
+        (triangles, part)
     }
 
     /// The part that `code` names, of its host.
@@ -257,6 +242,7 @@ fn part_named(index: u32) -> Part {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fearless_simd::{Level, dispatch};
     use proptest::prelude::*;
 
     proptest! {
@@ -272,15 +258,17 @@ mod tests {
                 .collect();
             let pieces = Pieces::new(&found, triangles).unwrap();
             let last = pieces.len() as u32 - 1;
-            let eight = std::array::from_fn::<u32, 8, _>(|k| last.min(k as u32));
-            let (mut hosts, mut packed) = ([0; 8], [Packed::default(); 8]);
+            let first = std::array::from_fn::<u32, LANES, _>(|k| last.min(k as u32));
+            let [mut hosts, mut packed] = [[0; LANES]; 2];
             let names = pieces.names();
-            names.get_all(&eight, &mut hosts, &mut packed);
-            let (triangles, [u, v, size]) = names.unpacked(hosts, &packed);
-            for k in 0..8 {
-                let part = Part { origin: [u[k], v[k]], size: size[k] };
-                prop_assert_eq!((triangles[k], part), pieces.get(eight[k] as usize));
-            }
+            names.get_all(&first, &mut hosts, &mut packed);
+            dispatch!(Level::new(), simd => {
+                let (triangles, [u, v, size]) = names.unpacked(simd, &hosts, &packed);
+                for k in 0..LANES {
+                    let part = Part { origin: [u[k], v[k]], size: size[k] };
+                    assert_eq!((triangles[k], part), pieces.get(first[k] as usize));
+                }
+            });
             for (packed, piece) in pieces.iter().zip(&found) {
                 prop_assert_eq!(packed, (piece.triangle, part_named(piece.part)));
             }

@@ -8,8 +8,6 @@
 
 use crate::density::{Density, DensityField};
 use crate::distribution::Distribution;
-use crate::neighbours::Found;
-use crate::part::Part;
 use crate::pieces::Pieces;
 use crate::subdivide::{Piece, Plan};
 use crate::sums::Sums;
@@ -57,17 +55,15 @@ impl RootSampler {
 
     /// Root of hair `index`. For many, [`roots`](Self::roots) is several times faster.
     pub fn root(&self, index: u64) -> SurfacePoint {
-        let mut root = [SurfacePoint::default()];
-        self.draw::<1, false>(|_| index, &mut root);
-        root[0]
+        let (x, y) = self.sequence.sample(index);
+        self.place(x, y)
     }
 
     /// The place that the fraction `x` (of 2^64) and `y` (of 2^32) lead to. Points that
     /// are evenly spread over the unit square come out in proportion to the density.
     pub fn place(&self, x: u64, y: u32) -> SurfacePoint {
-        let mut place = [SurfacePoint::default()];
-        self.lead::<1, false>(&[x], &[y], &mut place);
-        place[0]
+        let (piece, [inside, width]) = self.distribution.tables().locate(x);
+        self.place_in(piece, inside as f32 / width as f32, y)
     }
 
     /// The place `along` (0..=1) and `y` (a fraction of 2^32) inside piece `piece`, for
@@ -84,18 +80,6 @@ impl RootSampler {
         }
     }
 
-    /// Draws the roots of `N` hairs at once; `NEAR` tells that they are neighbours.
-    #[inline(always)]
-    pub(crate) fn draw<const N: usize, const NEAR: bool>(
-        &self,
-        hair: impl Fn(usize) -> u64,
-        roots: &mut [SurfacePoint; N],
-    ) {
-        let (mut xs, mut ys) = ([0; N], [0; N]);
-        self.sequence.samples(hair, &mut xs, &mut ys);
-        self.lead::<N, NEAR>(&xs, &ys, roots);
-    }
-
     /// Whether the hairs that share the upper `bits` bits of their first number with hair
     /// `index` lie in no more than `most` pieces, more or less.
     #[inline(always)]
@@ -103,41 +87,6 @@ impl RootSampler {
         let rest = u64::MAX.checked_shr(bits).unwrap_or(0);
         let (x, _) = self.sequence.sample(index);
         self.distribution.tables().between(x & !rest, x | rest) < most
-    }
-
-    /// Places `N` points of the unit square. In passes, so that processors do the
-    /// arithmetic of many at once and wait for the memory of many at once.
-    #[inline(always)]
-    fn lead<const N: usize, const NEAR: bool>(
-        &self,
-        xs: &[u64; N],
-        ys: &[u32; N],
-        places: &mut [SurfacePoint; N],
-    ) {
-        let (tables, names) = (self.distribution.tables(), self.pieces.names());
-        let found = if NEAR {
-            Found::near(xs, tables, names)
-        } else {
-            Found::anywhere(xs, tables, names)
-        };
-        let (triangles, [mut u, mut v, size]) = names.unpacked(found.hosts, &found.parts);
-        // Document 004, 2.1.5: a triangle's area grows with the square of the distance
-        // from its first corner.
-        for k in 0..N {
-            let root = found.rests.part(k).sqrt();
-            let part = Part {
-                origin: [u[k], v[k]],
-                size: size[k],
-            };
-            [u[k], v[k]] = part.at(1.0 - root, fraction(ys[k]) * root);
-        }
-        for k in 0..N {
-            let (u, v) = (u[k], v[k]);
-            places[k] = SurfacePoint {
-                triangle: triangles[k],
-                barycentric: [(1.0 - u - v).max(0.0), u, v],
-            };
-        }
     }
 
     /// Area of the surface, each part weighed by its density.

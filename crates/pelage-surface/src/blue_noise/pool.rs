@@ -7,7 +7,7 @@ use super::hierarchy::{Bounds, Boxes, Hierarchy};
 use super::keeper::Keeper;
 use super::leaf::{LEAF, Leaf};
 use crate::hash;
-use crate::sequence::mix;
+use crate::scramble::mix;
 use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 use std::ops::Range;
