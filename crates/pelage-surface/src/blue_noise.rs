@@ -42,8 +42,7 @@ const FIRST: u64 = 32;
 /// distance is by its root below what it is after.
 const STEP: f64 = 0.917_004_043_204_671_2;
 
-/// A stage ends at the latest where the squared reach has fallen by this factor: it takes
-/// half to double the roots.
+/// A stage ends at the latest where the squared reach has fallen by this factor.
 const FLOOR: f64 = 0.4;
 
 /// Roots that keep their distance, in the order of the hairs.
@@ -179,13 +178,15 @@ fn roots(ground: &Ground, count: u64, seed: u64) -> Vec<Root> {
     while (hairs.len() as u64) < count {
         // From a quarter below a power of two on, the next: levels end where they end.
         let goal = (hairs.len() as u64 * 5 / 4).next_power_of_two().max(FIRST);
-        let floor = reach * FLOOR;
+        let most = levels_of(hairs.len() as f64 / goal as f64);
+        // Of the last level, which takes nothing that is nearer.
+        let floor = (1..most).fold(reach, |reach, _| reach * STEP);
         let pool = Pool::new(ground, goal, seed);
         let (mut levels, mut reached) = (0, hairs.len() as u64);
         let taken = {
             let found = pool.clusters(&along, reach as f32, floor as f32);
             let mut stage = Stage::new(ground, &found, reach as f32);
-            while reached < goal.min(count) && reach >= floor {
+            while reached < goal.min(count) && levels < most {
                 reached += stage.level(reach as f32, (reach * STEP) as f32) as u64;
                 reach *= STEP;
                 levels += 1;
@@ -205,6 +206,15 @@ fn roots(ground: &Ground, count: u64, seed: u64) -> Vec<Root> {
     }
     hairs.truncate(count as usize);
     hairs
+}
+
+/// Levels of a stage that begins with `share` of the roots it wants: a root keeps a part of
+/// the squared distance that is to all as one to their number.
+fn levels_of(share: f64) -> usize {
+    let reaches = std::iter::successors(Some(1.0), |reach| Some(reach * STEP));
+    reaches
+        .take_while(|&reach| reach >= share.max(FLOOR))
+        .count()
 }
 
 /// Appends all of `roots`, which lie along a curve, in an order of which every prefix is

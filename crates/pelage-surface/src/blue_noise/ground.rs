@@ -112,7 +112,8 @@ impl<'a> Ground<'a> {
             steps: steps(&closeness),
             closeness,
             centre: low * 0.5 + high * 0.5,
-            scale: (1.0 / area.sqrt()) as f32,
+            // The smallest meshes would need more: they stay smaller.
+            scale: (1.0 / area.sqrt()).min(f32::MAX as f64) as f32,
         }
     }
 

@@ -274,6 +274,20 @@ fn every_count_is_reached_on_any_surface() {
 }
 
 #[test]
+fn roots_keep_their_distance_at_every_scale_that_a_mesh_may_have() {
+    let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let plain = triangles(&corners, &[0, 1, 2]);
+    // From the least number that is none on: the root of its area has no inverse.
+    for exponent in -45..=17 {
+        let scale = libm::exp10(exponent as f64) as f32;
+        let mesh = triangles(&corners.map(|p| p.map(|x| x * scale)), &[0, 1, 2]);
+        let roots = made(&mesh, &EVEN, 500, 1);
+        let ratio = least_ratio(&plain, &EVEN, &roots);
+        assert!(ratio > 0.6, "1e{exponent}: {ratio}");
+    }
+}
+
+#[test]
 fn the_piece_of_a_root_is_where_it_lies() {
     let (mesh, map) = (sheet(5), slope());
     let sampler = RootSampler::new(&mesh, &by(&map), 2).unwrap();
