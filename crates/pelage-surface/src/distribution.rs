@@ -375,11 +375,11 @@ mod tests {
             let d = Distribution::with_cells(&weights, bits).unwrap();
             let mut picks = Picks::<16>::new();
             d.tables().locate_all(&fractions, &mut picks);
-            for k in 0..16 {
-                let (index, share) = d.tables().share_around(fractions[k]);
+            for (k, &fraction) in fractions.iter().enumerate() {
+                let (index, share) = d.tables().share_around(fraction);
                 prop_assert_eq!(picks.indices[k] as usize, index);
                 let rest = [picks.insides[k], picks.widths[k]];
-                prop_assert_eq!(rest, inside(fractions[k], share));
+                prop_assert_eq!(rest, inside(fraction, share));
             }
         }
     }

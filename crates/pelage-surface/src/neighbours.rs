@@ -165,14 +165,14 @@ mod tests {
             dispatch!(Level::new(), simd => {
                 let [upper, lower] = [upper, lower].map(|x| u32x16::load_array(simd, x));
                 let found = few.hold(simd, upper, lower);
-            for (k, &x) in xs.iter().enumerate() {
-                let (index, [inside, width]) = distribution.tables().locate(x);
-                let (triangle, part) = pieces.get(index);
-                assert_eq!(found.triangle[k], triangle);
-                assert_eq!([found.origin[0][k], found.origin[1][k]], part.origin);
-                assert_eq!(found.size[k], part.size);
-                assert_eq!([found.inside[k], found.width[k]], [inside as f32, width as f32]);
-            }
+                for (k, &x) in xs.iter().enumerate() {
+                    let (index, [inside, width]) = distribution.tables().locate(x);
+                    let (triangle, part) = pieces.get(index);
+                    assert_eq!(found.triangle[k], triangle);
+                    assert_eq!([found.origin[0][k], found.origin[1][k]], part.origin);
+                    assert_eq!(found.size[k], part.size);
+                    assert_eq!([found.inside[k], found.width[k]], [inside as f32, width as f32]);
+                }
             });
         }
     }
