@@ -2,13 +2,13 @@
 //! surface.
 //!
 //! `cargo bench -p pelage-surface --bench roots -- [ROUNDS]`. The torus of `pelage bench
-//! sampling`, 10^7 roots written to memory, one thread, the best of some rounds by its
-//! processor time (Linux only), which other programs disturb less.
+//! sampling`, 10^7 roots written to memory, one thread, the best of some rounds.
 
 use libm::{cos, pow, sin};
 use pelage_surface::{Density, ImageMap, Mesh, PolygonMesh, RootSampler, SurfacePoint, Wrap, hash};
 use std::error::Error;
 use std::f64::consts::TAU;
+use std::time::Instant;
 
 const ROOTS: usize = 10_000_000;
 
@@ -52,22 +52,18 @@ fn measure(name: &str, mesh: &Mesh, map: &ImageMap, rounds: usize) -> Result<(),
         map: Some((map, 0, Wrap::Repeat)),
     };
     let [mut make, mut by_index, mut along] = [f64::INFINITY; 3];
-    let mut roots = vec![SurfacePoint::default(); ROOTS];
+    let (mut hairs, mut roots) = (vec![0; ROOTS], vec![SurfacePoint::default(); ROOTS]);
     let mut pieces = 0;
     for _ in 0..rounds {
-        let begun = thread_seconds();
+        let begun = Instant::now();
         let sampler = RootSampler::new(mesh, &density, 1).ok_or("no density")?;
-        make = make.min(thread_seconds() - begun);
-        let begun = thread_seconds();
+        make = make.min(begun.elapsed().as_secs_f64());
+        let begun = Instant::now();
         sampler.fill(0, &mut roots);
-        by_index = by_index.min(thread_seconds() - begun);
-        let begun = thread_seconds();
-        let mut next = 0;
-        sampler.roots_in(0, 1 << 64, 0..ROOTS as u64, |_, places| {
-            roots[next..next + places.len()].copy_from_slice(places);
-            next += places.len();
-        });
-        along = along.min(thread_seconds() - begun);
+        by_index = by_index.min(begun.elapsed().as_secs_f64());
+        let begun = Instant::now();
+        sampler.fill_in(0, 1 << 64, 0..ROOTS as u64, &mut hairs, &mut roots);
+        along = along.min(begun.elapsed().as_secs_f64());
         pieces = sampler.piece_count();
     }
     let rate = |seconds: f64| ROOTS as f64 / 1e6 / seconds;
@@ -78,12 +74,4 @@ fn measure(name: &str, mesh: &Mesh, map: &ImageMap, rounds: usize) -> Result<(),
         rate(along)
     );
     Ok(())
-}
-
-/// Processor time of this thread in seconds.
-fn thread_seconds() -> f64 {
-    std::fs::read_to_string("/proc/thread-self/schedstat")
-        .ok()
-        .and_then(|s| s.split(' ').next()?.parse::<f64>().ok())
-        .map_or(f64::NAN, |nanoseconds| nanoseconds / 1e9)
 }

@@ -26,8 +26,7 @@ const ROWS: usize = 512;
 /// Batches of a row of a tile.
 const BATCHES: usize = ROWS / BATCH;
 
-/// Runs of an interval that are listed before they are drawn: drawing is compiled for the
-/// processor at hand, and visitors are not.
+/// Runs of an interval that are listed before they are drawn.
 const RUNS: usize = 256;
 
 /// Hairs that follow each other in a tile; with roots of 16 bytes, runs of 512 bytes.
@@ -84,19 +83,79 @@ impl RootSampler {
         most: u64,
         mut visit: impl FnMut(&[u64], &[SurfacePoint]),
     ) {
-        let mut runs = Vec::with_capacity(RUNS);
-        let mut drawn = Drawn::new();
-        let mut draw = |runs: &[Run]| {
+        let mut room = Room::new();
+        let mut drawn = room.drawn();
+        self.each_runs(interval, hairs, most, |runs| {
             dispatch!(Level::new(), simd => self.draw_runs(simd, runs, &mut drawn, &mut visit));
-        };
+            drawn.pass_to(&mut visit);
+        });
+    }
+
+    /// Writes those of `hairs` whose first number lies in `low..high` to `indices`, and their
+    /// roots to `roots`, in the order of [`roots_in`](Self::roots_in); to memory that is far
+    /// this is faster than to copy them there. Gives how many there are; those for which there
+    /// is no room in both are left out.
+    ///
+    /// ```
+    /// use pelage_surface::{Density, Mesh, PolygonMesh, RootSampler, SurfacePoint};
+    /// let sheet = Mesh::new(PolygonMesh::sheet(8, 8, |u, v| [u, v, 0.0])).unwrap();
+    /// let even = Density { value: 1.0, map: None };
+    /// let sampler = RootSampler::new(&sheet, &even, 1).unwrap();
+    /// let (mut hairs, mut roots) = ([0; 60], [SurfacePoint::default(); 60]);
+    /// let count = sampler.fill_in(0, 1 << 63, 0..100, &mut hairs, &mut roots);
+    /// assert_eq!(count, 50);
+    /// assert_eq!(roots[7], sampler.root(hairs[7]));
+    /// ```
+    pub fn fill_in(
+        &self,
+        low: u64,
+        high: u128,
+        hairs: Range<u64>,
+        indices: &mut [u64],
+        roots: &mut [SurfacePoint],
+    ) -> usize {
+        let places = indices.len().min(roots.len());
+        let mut direct = Drawn::into(&mut indices[..places], &mut roots[..places]);
+        let mut room = Room::new();
+        let mut drawn = room.drawn();
+        let mut count = 0;
+        self.each_runs([low as u128, high], hairs, BATCH as u64, |runs| {
+            // Drawing in place writes beyond the last root; what comes near the end is copied.
+            let fits = |run: &Run| {
+                let fits = count + BATCH + LANES <= places;
+                count += run.count as usize;
+                fits
+            };
+            let in_place = runs.iter().map(fits).filter(|&fits| fits).count();
+            let (now, last) = runs.split_at(in_place);
+            dispatch!(Level::new(), simd => {
+                self.draw_runs(simd, now, &mut direct, &mut |_, _| {});
+            });
+            let mut copy = |hairs: &[u64], roots: &[SurfacePoint]| direct.append(hairs, roots);
+            dispatch!(Level::new(), simd => self.draw_runs(simd, last, &mut drawn, &mut copy));
+            drawn.pass_to(&mut copy);
+        });
+        count
+    }
+
+    /// Calls `visit` with the runs of an interval, many at a time: drawing is compiled for the
+    /// processor at hand, and what lists them is not.
+    fn each_runs(
+        &self,
+        interval: [u128; 2],
+        hairs: Range<u64>,
+        most: u64,
+        mut visit: impl FnMut(&[Run]),
+    ) {
+        let mut runs = Vec::with_capacity(RUNS);
         self.sequence().runs_in(interval, hairs, most, &mut |run| {
             runs.push(run);
             if runs.len() == RUNS {
-                draw(&runs);
+                visit(&runs);
                 runs.clear();
             }
         });
-        draw(&runs);
+        visit(&runs);
     }
 
     #[inline(always)]
@@ -108,7 +167,7 @@ impl RootSampler {
         visit: &mut impl FnMut(&[u64], &[SurfacePoint]),
     ) {
         for run in runs {
-            if drawn.listed > BATCH {
+            if drawn.hairs.len() < drawn.listed + BATCH + LANES {
                 self.draw_listed(simd, drawn);
                 drawn.pass_to(visit);
             }
@@ -127,7 +186,6 @@ impl RootSampler {
             }
         }
         self.draw_listed(simd, drawn);
-        drawn.pass_to(visit);
     }
 
     /// Draws those hairs that are listed and not yet drawn.
@@ -148,7 +206,7 @@ impl RootSampler {
         &self,
         simd: S,
         run: &Run,
-        drawn: &'a mut Drawn,
+        drawn: &'a mut Drawn<'_>,
     ) -> &'a [SurfacePoint] {
         let padded = (run.count as usize).next_multiple_of(LANES);
         let (hairs, roots) = (&mut drawn.hairs[..padded], &mut drawn.roots[..padded]);
@@ -161,8 +219,8 @@ impl RootSampler {
 
     #[inline(always)]
     fn fill_blocks<S: Simd>(&self, simd: S, mut first: u64, mut roots: &mut [SurfacePoint]) {
-        let mut tile = Vec::new();
-        let mut drawn = Drawn::new();
+        let (mut tile, mut room) = (Vec::new(), Room::new());
+        let mut drawn = room.drawn();
         while !roots.is_empty() {
             let block = largest_block(first, roots.len());
             let (now, later) = roots.split_at_mut(block);
@@ -257,23 +315,21 @@ impl RootSampler {
 }
 
 /// Hairs that were listed, and the roots of the first of them.
-struct Drawn {
-    hairs: [u64; ROOM],
-    roots: [SurfacePoint; ROOM],
+struct Drawn<'a> {
+    hairs: &'a mut [u64],
+    roots: &'a mut [SurfacePoint],
     listed: usize,
     /// How many roots are drawn.
     drawn: usize,
     scratch: Scratch,
 }
 
-/// Two batches, and what fills up the last row.
-const ROOM: usize = 2 * BATCH + LANES;
-
-impl Drawn {
-    fn new() -> Self {
+impl<'a> Drawn<'a> {
+    /// What is drawn is written to both of one length.
+    fn into(hairs: &'a mut [u64], roots: &'a mut [SurfacePoint]) -> Self {
         Self {
-            hairs: [0; ROOM],
-            roots: [SurfacePoint::default(); ROOM],
+            hairs,
+            roots,
             listed: 0,
             drawn: 0,
             scratch: Scratch::new(),
@@ -286,6 +342,37 @@ impl Drawn {
             visit(&self.hairs[..self.drawn], &self.roots[..self.drawn]);
             (self.listed, self.drawn) = (0, 0);
         }
+    }
+
+    /// Adds what was drawn elsewhere, as far as there is room.
+    fn append(&mut self, hairs: &[u64], roots: &[SurfacePoint]) {
+        let count = hairs.len().min(self.hairs.len() - self.drawn);
+        let end = self.drawn + count;
+        self.hairs[self.drawn..end].copy_from_slice(&hairs[..count]);
+        self.roots[self.drawn..end].copy_from_slice(&roots[..count]);
+        (self.listed, self.drawn) = (end, end);
+    }
+}
+
+/// Where what is drawn waits to be passed on.
+struct Room {
+    hairs: [u64; ROOM],
+    roots: [SurfacePoint; ROOM],
+}
+
+/// Two batches, and what fills up the last row.
+const ROOM: usize = 2 * BATCH + LANES;
+
+impl Room {
+    fn new() -> Self {
+        Self {
+            hairs: [0; ROOM],
+            roots: [SurfacePoint::default(); ROOM],
+        }
+    }
+
+    fn drawn(&mut self) -> Drawn<'_> {
+        Drawn::into(&mut self.hairs, &mut self.roots)
     }
 }
 
@@ -349,6 +436,16 @@ mod tests {
                         found.push(hair);
                     }
                 });
+                let none = SurfacePoint::default();
+                for room in [0, 1, 100, found.len(), found.len() + 200] {
+                    let (mut hairs, mut roots) = (vec![u64::MAX; room], vec![none; room]);
+                    let count = sampler.fill_in(low, high, 7..30_000, &mut hairs, &mut roots);
+                    assert_eq!(count, found.len());
+                    assert_eq!(hairs[..count.min(room)], found[..count.min(room)]);
+                    for (&hair, root) in hairs[..count.min(room)].iter().zip(&roots) {
+                        assert_eq!(*root, sampler.root(hair));
+                    }
+                }
                 let mut expected = Vec::new();
                 let visit = &mut |hair| expected.push(hair);
                 sampler.sequence().indices_in(low, high, 7..30_000, visit);

@@ -26,7 +26,14 @@ fn measuring_writes_tables_plots_and_data_of_every_method() {
     }
     let page = String::from_utf8(folder.bytes("results/sampling.md")).unwrap();
     assert!(page.contains(printed.trim_end()), "{printed}");
-    for heading in ["Rates", "Preprocessing", "Memory", "Threads", "Order"] {
+    for heading in [
+        "Rates",
+        "In the order",
+        "Preprocessing",
+        "Memory",
+        "Threads",
+        "Order",
+    ] {
         assert!(page.contains(&format!("\n## {heading}")), "{heading}");
     }
 

@@ -3,6 +3,7 @@
 use super::maps::Map;
 use pelage::surface::{Density, Distribution, Mesh, RootSampler, SurfacePoint, Wrap, hash};
 use std::collections::VecDeque;
+use std::sync::{Mutex, PoisonError};
 
 /// A way of drawing roots, prepared for a surface and a map.
 pub trait Method: Send + Sync {
@@ -15,12 +16,16 @@ pub trait Method: Send + Sync {
 /// Names of the methods, in the order of the tables.
 pub const METHODS: [&str; 4] = ["guided", "bisection", "alias", "rejection"];
 
+/// Our own where the order of the hairs is of no matter; in a table of its own.
+pub const INTERVAL: &str = "interval";
+
 /// Prepares the method `name`.
 pub fn prepare<'a>(name: &str, mesh: &'a Mesh, map: &'a Map) -> Box<dyn Method + 'a> {
     match name {
         "bisection" => Box::new(Bisection::new(mesh, map)),
         "alias" => Box::new(Alias::new(mesh, map)),
         "rejection" => Box::new(Rejection::new(mesh, map)),
+        INTERVAL => Box::new(Interval::new(mesh, map)),
         _ => Box::new(Guided(sampler(mesh, map))),
     }
 }
@@ -57,6 +62,35 @@ impl Method for Guided {
 
     fn bytes(&self) -> usize {
         self.0.bytes()
+    }
+}
+
+/// [`RootSampler::fill_in`]: all of the surface in its own order.
+struct Interval {
+    sampler: RootSampler,
+    indices: Mutex<Vec<u64>>,
+}
+
+impl Interval {
+    fn new(mesh: &Mesh, map: &Map) -> Self {
+        Self {
+            sampler: sampler(mesh, map),
+            indices: Mutex::default(),
+        }
+    }
+}
+
+impl Method for Interval {
+    fn fill(&self, first: u64, roots: &mut [SurfacePoint]) {
+        // Whatever another thread left there is written anew.
+        let mut indices = self.indices.lock().unwrap_or_else(PoisonError::into_inner);
+        indices.resize(roots.len(), 0);
+        let hairs = first..first + roots.len() as u64;
+        self.sampler.fill_in(0, 1 << 64, hairs, &mut indices, roots);
+    }
+
+    fn bytes(&self) -> usize {
+        self.sampler.bytes()
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Findings;
 use super::maps::{Map, map, maps};
 use super::measure::{Effort, Row, measure};
-use super::methods::{METHODS, sampler};
+use super::methods::{INTERVAL, METHODS, sampler};
 use super::order::{self, Evenness};
 use super::picks;
 use super::surfaces::{Surface, first_surface, surfaces};
@@ -23,8 +23,9 @@ const PREFACE: &str = "
 The methods draw the same number of roots (triangle and barycentrics, written to memory)
 by the index of the hair. `guided` is `RootSampler::fill`; `bisection` and `alias` take
 the same pieces and numbers one hair after the other; `rejection` picks a triangle by area
-and weighs a coin by the map, as document 004 compares (section 4.1). The best of three
-runs counts. `sun` is a sky with a disc of a few texels, 10^6 times as bright; `embers` has
+and weighs a coin by the map, as document 004 compares (section 4.1). *By interval* is
+`RootSampler::fill_in`: the same roots in the order of the surface, with the indices of
+their hairs. The best of three runs counts. `sun` is a sky with a disc of a few texels, 10^6 times as bright; `embers` has
 texels whose brightness has no scale. Maps have 1024² texels where nothing else is said.
 Compare within a row: a machine that others share changes its speed from row to row.
 ";
@@ -33,6 +34,8 @@ Compare within a row: a machine that others share changes its speed from row to 
 pub struct Results {
     /// Surfaces by maps by methods, one thread.
     pub rates: Vec<Row>,
+    /// Our method for surfaces by maps where the order is of no matter, one thread.
+    pub intervals: Vec<Row>,
     /// Our method for maps of several sizes.
     pub sizes: Vec<Row>,
     /// Our method for several numbers of threads.
@@ -61,16 +64,17 @@ pub fn run(quick: bool, say: &Say) -> Results {
     };
     let surfaces = surfaces().take(if quick { 1 } else { usize::MAX });
     let maps = maps(if quick { 256 } else { MAP_SIZE });
-    let total = surfaces.len() * maps.len() * METHODS.len();
+    let total = surfaces.len() * maps.len() * (METHODS.len() + 1);
     let bar = Bar::new(say, total as u64, "measurements");
-    let mut rates = Vec::new();
+    let [mut rates, mut intervals] = [Vec::new(), Vec::new()];
     let mut evenness = Vec::new();
     for surface in surfaces {
         for map in &maps {
             for method in METHODS {
                 rates.push(measure(&surface, map, method, 1, effort));
-                bar.set(rates.len() as u64);
+                bar.set((rates.len() + intervals.len()) as u64);
             }
+            intervals.push(measure(&surface, map, INTERVAL, 1, effort));
         }
         evenness.extend(order::measure(&surface, &maps, quick));
     }
@@ -94,6 +98,7 @@ pub fn run(quick: bool, say: &Say) -> Results {
             .map(|map| (map.name, picks::sky(map, effort)))
             .collect(),
         evenness,
+        intervals,
         rates,
     }
 }
@@ -178,6 +183,7 @@ impl Results {
             rate if rate < 0.01 => format!("{rate:.0e}"),
             rate => format!("{rate:.2}"),
         })?;
+        self.by_interval(text)?;
         writeln!(text, "\n## Preprocessing, milliseconds, one thread\n")?;
         self.by_method(text, |row| format!("{:.0}", row.preprocess_seconds * 1e3))?;
         writeln!(text, "\n## Memory, MB\n")?;
@@ -217,6 +223,28 @@ impl Results {
         for (map, [grid, bisection]) in &self.skies {
             let times = grid / bisection;
             writeln!(text, "| {map} | {grid:.1} | {bisection:.1} | {times:.1} |")?;
+        }
+        Ok(())
+    }
+
+    fn by_interval(&self, text: &mut String) -> std::fmt::Result {
+        writeln!(
+            text,
+            "\n## In the order of the surface, million samples a second, one thread\n"
+        )?;
+        writeln!(
+            text,
+            "| surface | map | by index | by interval | times |\n|---|---|---|---|---|"
+        )?;
+        let guided = self.rates.iter().step_by(METHODS.len());
+        for (index, interval) in guided.zip(&self.intervals) {
+            let (Row { mesh, map, .. }, [index, interval]) =
+                (interval, [index, interval].map(Row::rate));
+            let times = interval / index;
+            writeln!(
+                text,
+                "| {mesh} | {map} | {index:.1} | {interval:.1} | {times:.2} |"
+            )?;
         }
         Ok(())
     }
