@@ -117,8 +117,10 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
         let mut rows: [Row; FEW] = [[0.0; LANES]; FEW];
         let read = &mut rows[..centres.len()];
         self.density.read_all(&corners, centres, read);
-        for density in read.iter_mut().flatten() {
-            *density = sound(*density);
+        for row in read.iter_mut() {
+            for density in row {
+                *density = sound(*density);
+            }
         }
         let mut merges = [false; LANES];
         for [a, b, c, d] in read.as_chunks().0 {
@@ -207,10 +209,12 @@ impl<N: Name> Found<'_, N> {
         let share = weight / (1u64 << (2 * depth)) as f64;
         let first = first_part(depth) as u32;
         let Run { mut len, mut sum } = self.run;
+        // In memory of their own the compiler would look for all of these again for each part.
+        let (part_bits, names, before) = (self.part_bits, &mut *self.names, &mut *self.before);
         for (i, &density) in densities.iter().enumerate() {
             // Overwritten where it does not count.
-            self.names[len] = N::new(triangle, first + i as u32, self.part_bits);
-            self.before[len] = sum.to_bits();
+            names[len] = N::new(triangle, first + i as u32, part_bits);
+            before[len] = sum.to_bits();
             let weight = share * density as f64;
             len += (weight > 0.0) as usize;
             sum += weight;

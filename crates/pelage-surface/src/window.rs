@@ -13,6 +13,9 @@ use pelage_curves::Vec2;
 /// Places that go through the arithmetic together.
 pub(crate) const LANES: usize = 16;
 
+/// Texels from which on a float could not tell where between two of them a place is.
+const WIDEST: f64 = (1 << 22) as f64;
+
 /// A number of each of them.
 pub(crate) type Row = [f32; LANES];
 
@@ -136,7 +139,7 @@ impl ImageMap {
         for k in 0..LANES {
             if !windows.fits[k] {
                 windows.starts[k] = 0;
-                [windows.last[0][k], windows.last[1][k]] = [0; 2];
+                [windows.last[0][k], windows.last[1][k]] = [0.0; 2];
             }
         }
         windows
@@ -154,7 +157,7 @@ struct Windows {
     /// Where the first texel is.
     starts: [usize; LANES],
     /// Last column and row, from the first, that has another beside it.
-    last: [[i32; LANES]; 2],
+    last: [Row; 2],
 }
 
 /// The numbers of an image that are around a texel: of the texel itself, of those on its
@@ -218,8 +221,9 @@ impl Windows {
             }
         }
         for k in 0..LANES {
+            self.fits[k] &= span[k] < WIDEST;
             self.starts[k] += first[k] as usize * stride;
-            self.last[axis][k] = span[k] as i32;
+            self.last[axis][k] = span[k] as f32;
             for (inside, texels) in self.corners.0.iter_mut().zip(texels) {
                 inside[axis][k] = (texels[k] - base[k]) as f32;
             }
@@ -235,11 +239,11 @@ impl Windows {
         for k in 0..LANES {
             let [x, y] = place(self.corners.get(k), [us[k], vs[k]]).to_array();
             // `clamp` would look in each lane whether its bounds are in order.
-            let column = (x as i32).max(0).min(self.last[0][k]);
-            let row = (y as i32).max(0).min(self.last[1][k]);
-            across[k] = x - column as f32;
-            down[k] = y - row as f32;
-            first[k] = row as u32 * texels.stride + column as u32 * texels.channels;
+            let column = x.max(0.0).min(self.last[0][k]).floor();
+            let row = y.max(0.0).min(self.last[1][k]).floor();
+            across[k] = x - column;
+            down[k] = y - row;
+            first[k] = low_word(row) * texels.stride + low_word(column) * texels.channels;
         }
         let mut around = [[0.0; LANES]; 4];
         let [own, right, below, below_right] = texels.numbers;
@@ -255,6 +259,16 @@ impl Windows {
         }
         values
     }
+}
+
+/// `x` as an integer, which is whole and in 0..2^23; anything where it is not. As Rust converts
+/// floats, out of bounds too, takes them one by one; here many go at once.
+#[inline(always)]
+fn low_word(x: f32) -> u32 {
+    const LAST_BIT_IS_1: f32 = (1u32 << 23) as f32;
+    (x + LAST_BIT_IS_1)
+        .to_bits()
+        .wrapping_sub(LAST_BIT_IS_1.to_bits())
 }
 
 #[cfg(test)]
