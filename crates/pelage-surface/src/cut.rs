@@ -14,7 +14,7 @@ use pelage_curves::Vec2;
 /// Depth to which triangles are read side by side.
 const SHALLOW: u32 = 2;
 
-/// Most parts of those.
+/// Most parts of those: as many as there are lanes.
 const FEW: usize = 1 << (2 * SHALLOW);
 
 /// Density of a part whose parts have different ones.
@@ -114,26 +114,29 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
             corners.set(lane, triangles[k]);
         }
         let centres = self.table.centres(depth);
-        let mut rows: [Row; FEW] = [[0.0; LANES]; FEW];
-        let read = &mut rows[..centres.len()];
-        self.density.read_all(&corners, centres, read);
-        for row in read.iter_mut() {
-            for density in row {
-                *density = sound(*density);
+        let mut rows: [Row; LANES] = [[0.0; LANES]; LANES];
+        match centres.first_chunk() {
+            Some(centres) => self.density.read_each(&corners, centres, &mut rows),
+            None => {
+                let mut across: [Row; LANES] = [[0.0; LANES]; LANES];
+                let read = &mut across[..centres.len()];
+                self.density.read_all(&corners, centres, read);
+                for (centre, read) in read.iter().enumerate() {
+                    for lane in 0..LANES {
+                        rows[lane][centre] = read[lane];
+                    }
+                }
             }
         }
-        let mut merges = [false; LANES];
-        for [a, b, c, d] in read.as_chunks().0 {
-            for lane in 0..LANES {
-                let [a, b, c, d] = [a[lane], b[lane], c[lane], d[lane]];
-                merges[lane] |= (a == b) & (a == c) & (a == d);
+        for (&k, row) in lanes.iter().zip(&rows) {
+            let shallow = &mut shallow[k];
+            for (density, &read) in shallow.densities.iter_mut().zip(row) {
+                *density = sound(read);
             }
-        }
-        for (lane, &k) in lanes.iter().enumerate() {
-            for (density, row) in shallow[k].densities.iter_mut().zip(&*read) {
-                *density = row[lane];
+            let parts = &shallow.densities[..centres.len()];
+            for [a, b, c, d] in parts.as_chunks().0 {
+                shallow.merges |= (a == b) & (a == c) & (a == d);
             }
-            shallow[k].merges = merges[lane];
         }
     }
 

@@ -44,6 +44,15 @@ pub(crate) trait DensityField: Sync {
             }
         }
     }
+
+    /// The same for as many weights as there are lanes: for each triangle a row of what is there
+    /// at each.
+    #[inline(always)]
+    fn read_each(&self, corners: &Corners, weights: &[[f32; 2]; LANES], values: &mut [Row; LANES]) {
+        for (lane, row) in values.iter_mut().enumerate() {
+            self.read(corners.get(lane), weights, row);
+        }
+    }
 }
 
 impl DensityField for Density<'_> {
@@ -72,12 +81,21 @@ impl DensityField for Density<'_> {
             None => values.fill(1.0),
         }
     }
+
     #[inline(always)]
     fn read_all(&self, corners: &Corners, weights: &[[f32; 2]], values: &mut [Row]) {
         match self.map {
             Some((map, channel, wrap)) => {
                 map.sample_triangles(corners, weights, channel, wrap, values)
             }
+            None => values.fill([1.0; LANES]),
+        }
+    }
+
+    #[inline(always)]
+    fn read_each(&self, corners: &Corners, weights: &[[f32; 2]; LANES], values: &mut [Row; LANES]) {
+        match self.map {
+            Some((map, channel, wrap)) => map.sample_each(corners, weights, channel, wrap, values),
             None => values.fill([1.0; LANES]),
         }
     }

@@ -5,6 +5,7 @@
 //! costs constant time whatever the weights. The sum runs in f64 and is stored as
 //! fractions of 2^64 (errata: floats would leave 4 bits inside an element).
 
+use crate::pages::Pages;
 use crate::sums::{PADDING, Sums, TWO_64};
 use rayon::prelude::*;
 
@@ -20,10 +21,10 @@ use rayon::prelude::*;
 pub struct Distribution {
     /// Where each element's share of 0..2^64 begins; ascending, first 0; then
     /// [`PADDING`] times the end of the range.
-    starts: Vec<u64>,
+    starts: Pages<u64>,
     /// For each cell of the grid, the element its lower end falls in; one more entry
     /// than cells.
-    grid: Vec<u32>,
+    grid: Pages<u32>,
     /// Right shift that turns a fraction into its cell.
     shift: u32,
     total: f64,
@@ -317,9 +318,9 @@ fn cell_bits(elements: usize) -> u32 {
 /// Each element is noted in the first cell whose lower end it holds, if it holds any;
 /// what is noted last before a cell is its element. So nothing depends on a comparison
 /// that processors would have to guess.
-fn grid(starts: &[u64], shift: u32) -> Vec<u32> {
+fn grid(starts: &[u64], shift: u32) -> Pages<u32> {
     let cells = 1usize << (64 - shift);
-    let mut grid = vec![0; cells + 1];
+    let mut grid = Pages::zeroed(cells + 1);
     grid[cells] = (starts.len() - 1) as u32;
     let runs = grid[..cells].par_chunks_mut(RUN).enumerate();
     runs.for_each(|(run, cells)| {

@@ -20,6 +20,7 @@ mod lanes;
 mod mesh;
 mod neighbours;
 mod normals;
+mod pages;
 mod part;
 mod pdf;
 mod pieces;

@@ -7,6 +7,7 @@
 //! is listed as if it were one more triangle.
 
 use crate::lanes::LANES;
+use crate::pages::Pages;
 use crate::part::{Packed, Part, TABLE_DEPTH, first_part, parts};
 use crate::subdivide::Piece;
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, u32x16};
@@ -16,7 +17,7 @@ use std::collections::HashMap;
 #[derive(Clone, Debug)]
 pub(crate) struct Pieces {
     /// Host and part of each piece; the part in the lower `part_bits`.
-    codes: Vec<u32>,
+    codes: Pages<u32>,
     part_bits: u32,
     parts: Vec<Packed>,
     /// Hosts from this one on are splits.
@@ -35,7 +36,7 @@ impl Pieces {
 
     /// Pieces that are packed already, of parts no deeper than `deepest`, with
     /// [`part_bits`](Self::part_bits).
-    pub(crate) fn packed(codes: Vec<u32>, triangles: u32, deepest: u32) -> Self {
+    pub(crate) fn packed(codes: Pages<u32>, triangles: u32, deepest: u32) -> Self {
         Self {
             codes,
             part_bits: part_bits(deepest),
@@ -75,7 +76,7 @@ impl Pieces {
             codes.push(host << part_bits | local);
         }
         Some(Self {
-            codes,
+            codes: codes.into(),
             part_bits,
             parts: packed(depth),
             triangles,

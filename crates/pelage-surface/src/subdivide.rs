@@ -12,22 +12,25 @@
 use crate::Mesh;
 use crate::cut::{Cutter, Found};
 use crate::density::DensityField;
+use crate::pages::Pages;
 use crate::part::{MAX_DEPTH, Table};
 use crate::sums::{PADDING, Run, Sums, divide};
 use crate::window::{Corners, LANES};
+use bytemuck::{Pod, Zeroable};
 use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec2;
 use rayon::prelude::*;
 use std::ops::Range;
 
 /// What a piece is called.
-pub(crate) trait Name: Copy + Default + Send {
+pub(crate) trait Name: Pod + Send + Sync {
     /// The name of part `part` of `triangle`, where parts have `part_bits` bits.
     fn new(triangle: u32, part: u32, part_bits: u32) -> Self;
 }
 
 /// Which part of which triangle a piece of constant density is.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
 pub(crate) struct Piece {
     pub triangle: u32,
     pub part: u32,
@@ -49,22 +52,18 @@ impl Name for u32 {
 }
 
 /// The pieces of a surface, without those of density zero.
-#[derive(Default)]
 pub(crate) struct Cut<N> {
-    pub names: Vec<N>,
+    pub names: Pages<N>,
     /// Of area times density.
     pub sums: Sums,
 }
 
-impl<N: Copy> Cut<N> {
+impl<N: Pod> Cut<N> {
     fn append(&mut self, other: Self) {
-        if self.names.is_empty() {
-            *self = other;
-        } else {
-            self.names.extend_from_slice(&other.names);
-            self.sums.before.extend_from_slice(&other.sums.before);
-            self.sums.runs.extend_from_slice(&other.sums.runs);
-        }
+        self.sums.before.truncate(self.names.len());
+        self.names.extend_from_slice(&other.names);
+        self.sums.before.extend_from_slice(&other.sums.before);
+        self.sums.runs.extend_from_slice(&other.sums.runs);
     }
 }
 
@@ -119,11 +118,11 @@ impl<'a, D: DensityField> Plan<'a, D> {
     /// The pieces of all triangles, in their order.
     pub(crate) fn cut<N: Name>(&self, part_bits: u32) -> Cut<N> {
         let runs = self.runs();
-        let mut cut = Cut::default();
-        for batch in batches(&runs) {
+        let mut batches = batches(&runs);
+        let mut cut = self.cut_batch(batches.next().unwrap_or_default(), part_bits);
+        for batch in batches {
             cut.append(self.cut_batch(batch, part_bits));
         }
-        cut.sums.before.resize(cut.names.len() + PADDING, 0);
         cut
     }
 
@@ -149,8 +148,8 @@ impl<'a, D: DensityField> Plan<'a, D> {
     fn cut_batch<N: Name>(&self, batch: &[Stretch], part_bits: u32) -> Cut<N> {
         let rooms = || batch.iter().map(|run| run.room);
         let most = rooms().sum();
-        let mut names = vec![N::default(); most];
-        let mut before = vec![0; most + PADDING];
+        let mut names = Pages::zeroed(most);
+        let mut before = Pages::zeroed(most + PADDING);
         let (table, level) = (Table::new(), Level::new());
         let names_of = divide(&mut names, rooms());
         let before_of = divide(&mut before, rooms());
@@ -178,8 +177,10 @@ impl<'a, D: DensityField> Plan<'a, D> {
                 cutter.found.run
             })
             .collect();
-        close_up(&mut names, rooms(), &runs);
+        let len = close_up(&mut names, rooms(), &runs);
+        names.truncate(len);
         close_up(&mut before, rooms(), &runs);
+        before.truncate(len + PADDING);
         Cut {
             names,
             sums: Sums { before, runs },
@@ -209,8 +210,8 @@ fn batches(runs: &[Stretch]) -> impl Iterator<Item = &[Stretch]> {
     })
 }
 
-/// Moves the runs, which had `rooms`, together, and leaves room for [`PADDING`].
-fn close_up<T: Copy>(all: &mut Vec<T>, rooms: impl Iterator<Item = usize>, runs: &[Run]) {
+/// Moves the runs, which had `rooms`, together, and tells how many there are of all.
+fn close_up<T: Copy>(all: &mut [T], rooms: impl Iterator<Item = usize>, runs: &[Run]) -> usize {
     let (mut from, mut to) = (0, 0);
     for (room, run) in rooms.zip(runs) {
         if from != to {
@@ -218,8 +219,7 @@ fn close_up<T: Copy>(all: &mut Vec<T>, rooms: impl Iterator<Item = usize>, runs:
         }
         (from, to) = (from + room, to + run.len);
     }
-    all.truncate(to);
-    all.shrink_to(to + PADDING);
+    to
 }
 
 pub(crate) fn uvs(mesh: &Mesh, triangle: u32) -> [Vec2; 3] {
@@ -292,8 +292,8 @@ mod tests {
         let run = |len| Run { len, sum: 1.0 };
         let mut all = vec![1, 2, 0, 3, 0, 0, 4, 5, 6, 7];
         let rooms = [3, 3, 3];
-        close_up(&mut all, rooms.into_iter(), &[run(2), run(1), run(3)]);
-        assert_eq!(all, [1, 2, 3, 4, 5, 6]);
+        let len = close_up(&mut all, rooms.into_iter(), &[run(2), run(1), run(3)]);
+        assert_eq!(all[..len], [1, 2, 3, 4, 5, 6]);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Weights as what lies before each: what a distribution is made of.
 
+use crate::pages::Pages;
 use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
@@ -12,7 +13,7 @@ pub(crate) const PADDING: usize = 3;
 pub(crate) struct Sums {
     /// For each element, the bits of the sum (f64) of the weights before it in its run:
     /// the starts of the shares will take the same place. Then [`PADDING`].
-    pub before: Vec<u64>,
+    pub before: Pages<u64>,
     pub runs: Vec<Run>,
 }
 
@@ -28,7 +29,7 @@ pub(crate) struct Run {
 impl Sums {
     /// The sums of `weights`; `None` where one is not positive and finite.
     pub(crate) fn new(weights: &[f64]) -> Option<Self> {
-        let mut before = vec![0; weights.len() + PADDING];
+        let mut before = Pages::zeroed(weights.len() + PADDING);
         let runs: Option<Vec<Run>> = before[..weights.len()]
             .par_chunks_mut(RUN)
             .zip(weights.par_chunks(RUN))
@@ -53,7 +54,7 @@ impl Sums {
 
     /// Where the share of each element begins, in fractions of 2^64, then [`PADDING`] times
     /// the end of the range; and the sum of all. `None` where there is none to share.
-    pub(crate) fn into_starts(self) -> Option<(Vec<u64>, f64)> {
+    pub(crate) fn into_starts(self) -> Option<(Pages<u64>, f64)> {
         let Self { mut before, runs } = self;
         let mut total = 0.0;
         let lower: Vec<f64> = runs

@@ -112,6 +112,38 @@ impl ImageMap {
         }
     }
 
+    /// The same for as many weights as there are lanes: for each triangle a row of what is there
+    /// at each. What is read for a triangle lies together; rows of texels a power of two apart
+    /// share the places of the first-level cache, so those of many triangles would not stay.
+    #[inline(always)]
+    pub(crate) fn sample_each(
+        &self,
+        corners: &Corners,
+        weights: &[[f32; 2]; LANES],
+        channel: u32,
+        wrap: Wrap,
+        values: &mut [Row; LANES],
+    ) {
+        let windows = self.windows(corners, wrap);
+        let row = [weights.map(|w| w[0]), weights.map(|w| w[1])];
+        if windows.fits.contains(&true) {
+            with_numbers!(self.texels(), numbers => {
+                let around = Around::new(self, numbers, channel);
+                for (lane, values) in values.iter_mut().enumerate() {
+                    *values = windows.only(lane).sample(around, row);
+                }
+            })
+        }
+        for (lane, values) in values.iter_mut().enumerate() {
+            if !windows.fits[lane] {
+                for (value, &weights) in values.iter_mut().zip(weights) {
+                    let uv = place(corners.get(lane), weights);
+                    *value = self.sample(uv.x, uv.y, channel, wrap);
+                }
+            }
+        }
+    }
+
     /// The texels around triangles.
     #[inline(always)]
     fn windows(&self, corners: &Corners, wrap: Wrap) -> Windows {
@@ -230,6 +262,17 @@ impl Windows {
         }
     }
 
+    /// Those of one triangle in all lanes.
+    #[inline(always)]
+    fn only(&self, lane: usize) -> Self {
+        Self {
+            fits: [self.fits[lane]; LANES],
+            corners: Corners::splat(self.corners.get(lane)),
+            starts: [self.starts[lane]; LANES],
+            last: [[self.last[0][lane]; LANES], [self.last[1][lane]; LANES]],
+        }
+    }
+
     /// Bilinear values at one place of each triangle, where the second and third corner have
     /// the weights `us` and `vs`.
     #[inline(always)]
@@ -317,10 +360,14 @@ mod tests {
             for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
                 let mut rows = vec![[0.0; LANES]; weights.len()];
                 map.sample_triangles(&corners, &weights, 0, wrap, &mut rows);
+                let sixteen = std::array::from_fn(|k| weights[k % weights.len()]);
+                let mut each = [[0.0; LANES]; LANES];
+                map.sample_each(&corners, &sixteen, 0, wrap, &mut each);
                 for (lane, &triangle) in triangles.iter().enumerate() {
                     let mut alone = vec![0.0; weights.len()];
                     map.sample_triangle(triangle, &weights, 0, wrap, &mut alone);
                     prop_assert!(alone.iter().zip(&rows).all(|(value, row)| *value == row[lane]));
+                    prop_assert!(each[lane].iter().eq(alone.iter().cycle().take(LANES)));
                 }
             }
         }
