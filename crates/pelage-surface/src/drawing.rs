@@ -108,6 +108,97 @@ impl RootSampler {
             found.place(simd, u32x16::load_array_ref(simd, &ys[k]), roots);
         }
     }
+
+    /// Draws those hairs that are listed and not yet drawn.
+    #[inline(always)]
+    pub(crate) fn draw_listed<S: Simd>(&self, simd: S, drawn: &mut Drawn) {
+        let (start, end) = (drawn.drawn, drawn.listed);
+        let end = start + (end - start).next_multiple_of(LANES);
+        let (hairs, roots) = (&drawn.hairs[start..end], &mut drawn.roots[start..end]);
+        if start < end {
+            self.draw(simd, hairs, roots, &mut drawn.scratch);
+        }
+        drawn.drawn = drawn.listed;
+    }
+
+    /// Draws the roots of `run`, [`BATCH`] at most, and gives them.
+    #[inline(always)]
+    pub(crate) fn draw_run<'a, S: Simd>(
+        &self,
+        simd: S,
+        run: &Run,
+        drawn: &'a mut Drawn<'_>,
+    ) -> &'a [SurfacePoint] {
+        let padded = (run.count as usize).next_multiple_of(LANES);
+        let (hairs, roots) = (&mut drawn.hairs[..padded], &mut drawn.roots[..padded]);
+        run.write(simd, hairs);
+        if !self.draw_near(simd, run, (hairs, roots), &mut drawn.scratch.few) {
+            self.draw(simd, hairs, roots, &mut drawn.scratch);
+        }
+        &drawn.roots[..run.count as usize]
+    }
+}
+
+/// Hairs that were listed, and the roots of the first of them.
+pub(crate) struct Drawn<'a> {
+    pub hairs: &'a mut [u64],
+    pub roots: &'a mut [SurfacePoint],
+    pub listed: usize,
+    /// How many roots are drawn.
+    pub drawn: usize,
+    pub scratch: Scratch,
+}
+
+impl<'a> Drawn<'a> {
+    /// What is drawn is written to both of one length.
+    pub(crate) fn into(hairs: &'a mut [u64], roots: &'a mut [SurfacePoint]) -> Self {
+        Self {
+            hairs,
+            roots,
+            listed: 0,
+            drawn: 0,
+            scratch: Scratch::new(),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn pass_to(&mut self, visit: &mut impl FnMut(&[u64], &[SurfacePoint])) {
+        if self.drawn > 0 {
+            visit(&self.hairs[..self.drawn], &self.roots[..self.drawn]);
+            (self.listed, self.drawn) = (0, 0);
+        }
+    }
+
+    /// Adds what was drawn elsewhere, as far as there is room.
+    pub(crate) fn append(&mut self, hairs: &[u64], roots: &[SurfacePoint]) {
+        let count = hairs.len().min(self.hairs.len() - self.drawn);
+        let end = self.drawn + count;
+        self.hairs[self.drawn..end].copy_from_slice(&hairs[..count]);
+        self.roots[self.drawn..end].copy_from_slice(&roots[..count]);
+        (self.listed, self.drawn) = (end, end);
+    }
+}
+
+/// Where what is drawn waits to be passed on.
+pub(crate) struct Room {
+    hairs: [u64; ROOM],
+    roots: [SurfacePoint; ROOM],
+}
+
+/// Two batches, and what fills up the last row.
+const ROOM: usize = 2 * BATCH + LANES;
+
+impl Room {
+    pub(crate) fn new() -> Self {
+        Self {
+            hairs: [0; ROOM],
+            roots: [SurfacePoint::default(); ROOM],
+        }
+    }
+
+    pub(crate) fn drawn(&mut self) -> Drawn<'_> {
+        Drawn::into(&mut self.hairs, &mut self.roots)
+    }
 }
 
 impl Run {

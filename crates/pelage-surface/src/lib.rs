@@ -16,6 +16,7 @@ mod frame;
 mod frames;
 mod hilbert;
 mod image_map;
+mod interval;
 mod lanes;
 mod mesh;
 mod neighbours;
