@@ -13,7 +13,7 @@ words! {
         /// Each by itself, as dice fall: clumps and gaps.
         Random = "random",
         /// Roots that keep their distance, at every prefix. Made ahead and kept in
-        /// memory: some seconds and 16 MB a million.
+        /// memory: a second or two and 16 MB a million.
         BlueNoise = "blue-noise",
     }
 }

@@ -3,6 +3,7 @@
 mod bars;
 mod cost;
 mod curves;
+mod distance;
 mod generation;
 mod maps;
 mod measure;

@@ -10,7 +10,7 @@ use super::methods::sampler;
 use super::surfaces::Surface;
 use pelage::surface::quality::{Sample, nearest_distance_ratio};
 use pelage::surface::{
-    Distribution, RootPdf, RootSampler, RootSequence, Spread, SurfacePoint, hash,
+    Distribution, Mesh, RootPdf, RootSampler, RootSequence, Spread, SurfacePoint, hash,
 };
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -79,7 +79,8 @@ fn evenness(surface: &Surface, map: &Map, roots: u64, seeds: u64) -> Evenness {
         for seed in 0..seeds {
             let drawn = ordered.draw(&RootSequence::new(seed, spread), roots);
             variance[way] += field.variance(&drawn) / seeds as f64;
-            let samples = field.samples(&drawn);
+            let places = drawn.iter().map(|(_, place)| place);
+            let samples = samples(&surface.mesh, &field.pdf, field.area, places);
             nearest[way] += nearest_distance_ratio(&samples, field.area) / seeds as f64;
         }
     }
@@ -136,7 +137,6 @@ impl<'a> Ordered<'a> {
 
 /// What roots are compared with.
 struct Field<'a> {
-    surface: &'a Surface,
     pdf: RootPdf<'a>,
     area: f64,
     /// The cell of space that holds the centre of each piece.
@@ -164,7 +164,6 @@ impl<'a> Field<'a> {
             cells.push(cell);
         }
         Self {
-            surface,
             pdf: RootPdf::new(sampler, mesh),
             area,
             cells,
@@ -189,15 +188,21 @@ impl<'a> Field<'a> {
         });
         square / chance
     }
+}
 
-    fn samples(&self, roots: &[(usize, SurfacePoint)]) -> Vec<Sample> {
-        let sample = |(_, place): &(usize, SurfacePoint)| Sample {
-            position: self.surface.mesh.position(place),
-            normal: self.surface.mesh.normal(place),
-            density: self.pdf.density(place) * self.area,
-        };
-        roots.iter().map(sample).collect()
-    }
+/// `roots` of a surface of the area `area`, as their distances are measured.
+pub fn samples<'a>(
+    mesh: &Mesh,
+    pdf: &RootPdf,
+    area: f64,
+    roots: impl Iterator<Item = &'a SurfacePoint>,
+) -> Vec<Sample> {
+    let sample = |place: &SurfacePoint| Sample {
+        position: mesh.position(place),
+        normal: mesh.normal(place),
+        density: pdf.density(place) * area,
+    };
+    roots.map(sample).collect()
 }
 
 /// A heading, and what of each row stands below it.

@@ -1,6 +1,7 @@
 //! `pelage bench sampling`: the tables of document 004, section 4.1, measured again.
 
 use super::Findings;
+use super::distance::{self, Apart};
 use super::maps::{Map, map, maps};
 use super::measure::{Effort, Row, measure};
 use super::methods::{INTERVAL, METHODS, sampler};
@@ -42,6 +43,8 @@ pub struct Results {
     pub threads: Vec<Row>,
     /// How evenly roots are spread by the order of the pieces.
     pub evenness: Vec<Evenness>,
+    /// Roots that keep their distance, by map.
+    pub apart: Vec<Apart>,
     /// Picks a second by the size of the grid.
     pub cells: Vec<(&'static str, Vec<f64>)>,
     /// Picks a second from skies, with and without the grid.
@@ -97,6 +100,7 @@ pub fn run(quick: bool, say: &Say) -> Results {
             .iter()
             .map(|map| (map.name, picks::sky(map, effort)))
             .collect(),
+        apart: distance::measure(first, &maps, quick),
         evenness,
         intervals,
         rates,
@@ -206,6 +210,7 @@ impl Results {
         }
         self.by_threads(text)?;
         order::write_tables(&self.evenness, text)?;
+        distance::write_table(&self.apart, text)?;
         writeln!(
             text,
             "\n## Cells of the grid an element, million picks a second\n"
