@@ -377,7 +377,8 @@ pub struct GenerateArgs {
     /// Also render a picture of the (first frame's) hair on its surface.
     #[arg(long, value_hint = ValueHint::FilePath, value_name = "PNG")]
     pub picture: Option<PathBuf>,
-    /// Write counts, times by stage and cost a hair as JSON; `-` prints them.
+    /// Write counts, times by stage and cost a hair as JSON; `-` prints them, and nothing else,
+    /// to standard output.
     #[arg(long, value_hint = ValueHint::FilePath, value_name = "JSON")]
     pub stats: Option<PathBuf>,
     /// Write curve normals to USD and RIB: readers then draw flat ribbons, not tubes.

@@ -17,6 +17,7 @@ use std::time::{Duration, Instant};
 
 /// Generates as asked and says what was made.
 pub fn run(args: &GenerateArgs, say: &Say) -> Result<ExitCode> {
+    let say = &say.beside(args.stats.as_deref().is_some_and(is_standard_output));
     let recipe = args.run.recipe(&args.recipe, args.count)?;
     let mut job = Job::new(recipe, args, say)?;
     let mut sink = sink_for(&args.output, &options(args.ribbons))?;
@@ -229,9 +230,13 @@ impl Sink for FirstFrame {
     }
 }
 
+fn is_standard_output(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
 fn write_stats(stats: &Stats, path: &Path) -> Result<()> {
     let text = json(stats)?;
-    if path == Path::new("-") {
+    if is_standard_output(path) {
         std::io::stdout().lock().write_all(text.as_bytes())?;
         return Ok(());
     }

@@ -9,12 +9,25 @@ use std::time::Duration;
 #[derive(Clone, Copy, Debug)]
 pub struct Say {
     quiet: bool,
+    /// Whether standard output is left to what programs read.
+    aside: bool,
 }
 
 impl Say {
     /// Prints errors only where `quiet`.
     pub fn new(quiet: bool) -> Self {
-        Self { quiet }
+        Self {
+            quiet,
+            aside: false,
+        }
+    }
+
+    /// The same, with all words on standard error where `data` goes to standard output.
+    pub fn beside(self, data: bool) -> Self {
+        Self {
+            aside: data,
+            ..self
+        }
     }
 
     /// Whether only errors are printed.
@@ -24,9 +37,13 @@ impl Say {
 
     /// A line of what was done. A closed pipe is no reason to fail.
     pub fn line(self, text: impl Display) {
-        if !self.quiet {
-            let _ = writeln!(std::io::stdout().lock(), "{text}");
+        if self.quiet {
+            return;
         }
+        let _ = match self.aside {
+            true => writeln!(std::io::stderr().lock(), "{text}"),
+            false => writeln!(std::io::stdout().lock(), "{text}"),
+        };
     }
 
     /// Something worth knowing that is no error.

@@ -35,6 +35,13 @@ fn a_thousand_hairs_are_the_first_of_two_thousand() {
 }
 
 #[test]
+fn statistics_on_standard_output_can_be_piped_to_a_program() {
+    let printed = Folder::with_ball().generate("null", &["--count", "100", "--stats", "-"]);
+    let stats: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(stats["hairs"], 100);
+}
+
+#[test]
 fn hairs_along_the_surface_are_the_same_hairs_for_any_number_of_threads() {
     let folder = Folder::with_ball();
     let by_index = folder.arrays("index.npz", &["--count", "3000"]);
