@@ -7,6 +7,7 @@
 
 use crate::pages::Pages;
 use crate::sums::{PADDING, Sums, TWO_64};
+use fearless_simd::{Level, Simd, SimdBase, dispatch, u32x16};
 use rayon::prelude::*;
 
 /// A discrete distribution over `0..len`.
@@ -322,6 +323,7 @@ fn grid(starts: &[u64], shift: u32) -> Pages<u32> {
     let cells = 1usize << (64 - shift);
     let mut grid = Pages::zeroed(cells + 1);
     grid[cells] = (starts.len() - 1) as u32;
+    let level = Level::new();
     let runs = grid[..cells].par_chunks_mut(RUN).enumerate();
     runs.for_each(|(run, cells)| {
         let first = (run * RUN) as u64;
@@ -335,13 +337,33 @@ fn grid(starts: &[u64], shift: u32) -> Pages<u32> {
             };
             cells[cell.saturating_sub(first) as usize] = element as u32;
         }
-        let mut element = 0;
-        for cell in cells {
-            element = element.max(*cell);
-            *cell = element;
-        }
+        dispatch!(level, simd => raise(simd, cells));
     });
     grid
+}
+
+/// Gives each cell the largest of all up to it. One by one, every second cell would be a
+/// decision to guess.
+#[inline(always)]
+fn raise<S: Simd>(simd: S, cells: &mut [u32]) {
+    let none = u32x16::splat(simd, 0);
+    let mut before = none;
+    let (rows, rest) = cells.as_chunks_mut();
+    for row in rows {
+        let mut cells = u32x16::load_array_ref(simd, row);
+        cells = cells.max(none.slide::<15>(cells));
+        cells = cells.max(none.slide::<14>(cells));
+        cells = cells.max(none.slide::<12>(cells));
+        cells = cells.max(none.slide::<8>(cells));
+        cells = cells.max(before);
+        cells.store_array(row);
+        before = u32x16::splat(simd, cells[15]);
+    }
+    let mut before = before[0];
+    for cell in rest {
+        before = before.max(*cell);
+        *cell = before;
+    }
 }
 
 #[cfg(test)]
