@@ -66,8 +66,7 @@ impl Plan {
     /// Points spread evenly over the surface, one on each `size` × `size` of it.
     fn scattered(&self, key: &str, size: f64) -> Result<Vec<SurfacePoint>, PlanError> {
         let rest = self.rest();
-        let areas = (0..rest.triangles().len()).map(|triangle| rest.area(triangle));
-        let wanted = areas.sum::<f64>() / (size * size);
+        let wanted = rest.surface_area() / (size * size);
         // A count beyond u64 is refused too.
         refuse_too_many(key, wanted as u64)?;
         let mut places = Vec::new();

@@ -311,7 +311,7 @@ fn nearest_of_many(
 /// Shorter lists would need more cells than they save. More than a few `nearest` have
 /// long lists in any case: larger cells keep what all cells hold together small.
 fn cell_side(mesh: &Mesh, low: Vec3, high: Vec3, guides: usize, nearest: usize) -> f32 {
-    let area: f64 = (0..mesh.triangles().len()).map(|t| mesh.area(t)).sum();
+    let area = mesh.surface_area();
     let size = (high - low)
         .as_dvec3()
         .max(pelage_curves::DVec3::splat(f64::MIN_POSITIVE));

@@ -183,18 +183,23 @@ impl Sink for Tee<'_> {
     fn takes_any_order(&self) -> bool {
         self.sinks.iter().all(|s| s.takes_any_order())
     }
+
     fn begin(&mut self, info: &StreamInfo) -> Result<(), SinkError> {
         self.sinks.iter_mut().try_for_each(|s| s.begin(info))
     }
+
     fn begin_frame(&mut self, index: usize) -> Result<(), SinkError> {
         self.sinks.iter_mut().try_for_each(|s| s.begin_frame(index))
     }
+
     fn write(&mut self, strands: &StrandBuffer) -> Result<(), SinkError> {
         self.sinks.iter_mut().try_for_each(|s| s.write(strands))
     }
+
     fn end_frame(&mut self) -> Result<(), SinkError> {
         self.sinks.iter_mut().try_for_each(|s| s.end_frame())
     }
+
     fn finish(&mut self) -> Result<(), SinkError> {
         self.sinks.iter_mut().try_for_each(|s| s.finish())
     }

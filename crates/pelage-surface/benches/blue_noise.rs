@@ -50,7 +50,7 @@ fn measure(name: &str, mesh: &Mesh, density: &Density, sampler: &RootSampler, ro
         rate(busy)
     );
     let Some(made) = made else { return };
-    let area: f64 = (0..mesh.triangles().len()).map(|t| mesh.area(t)).sum();
+    let area = mesh.surface_area();
     let mean = sampler.weighted_area() / area;
     let mut places = Vec::new();
     made.roots(0..roots, &mut places);

@@ -5,10 +5,11 @@
 
 use crate::Mesh;
 use crate::density::DensityField;
+use crate::lanes::LANES;
 use crate::part::{MAX_DEPTH, TABLE_DEPTH, Table, first_part};
 use crate::subdivide::{Name, uvs};
 use crate::sums::Run;
-use crate::window::{Corners, LANES, Row, place};
+use crate::window::{Corners, Row, place};
 use pelage_curves::Vec2;
 
 /// Depth to which triangles are read side by side.
@@ -134,8 +135,8 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
                 *density = sound(read);
             }
             let parts = &shallow.densities[..centres.len()];
-            for [a, b, c, d] in parts.as_chunks().0 {
-                shallow.merges |= (a == b) & (a == c) & (a == d);
+            for four in parts.as_chunks().0 {
+                shallow.merges |= are_one(four);
             }
         }
     }
@@ -196,10 +197,10 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
         let (above, below) = (&mut above[depth as usize], below[0].as_chunks().0);
         let mut merged = false;
         above.resize(below.len(), 0.0);
-        for (above, &[a, b, c, d]) in above.iter_mut().zip(below) {
-            let same = (a == b) & (a == c) & (a == d);
+        for (above, four) in above.iter_mut().zip(below) {
+            let same = are_one(four);
             merged |= same;
-            *above = if same { a } else { MIXED };
+            *above = if same { four[0] } else { MIXED };
         }
         merged
     }
@@ -244,6 +245,12 @@ impl<N: Name> Found<'_, N> {
             self.run.sum += weight;
         }
     }
+}
+
+/// Whether four parts are of one density, which no mixed one is.
+#[inline(always)]
+fn are_one([a, b, c, d]: &[f32; 4]) -> bool {
+    (a == b) & (a == c) & (a == d)
 }
 
 /// A density; what is less than nothing, or no number, is nothing too.

@@ -1,6 +1,7 @@
 //! How dense hair grows, as cutting triangles asks.
 
-use crate::window::{Corners, LANES, Row, place};
+use crate::lanes::LANES;
+use crate::window::{Corners, Row, place};
 use crate::{ImageMap, Wrap};
 use pelage_curves::Vec2;
 

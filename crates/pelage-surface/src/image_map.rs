@@ -1,5 +1,6 @@
 //! Images that modulate properties over the surface.
 
+use crate::lanes::low_word_f64;
 use crate::texels::{Numbers, Texels, with_numbers};
 use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec2;
@@ -257,7 +258,7 @@ impl ImageMap {
             let [x0, y0] = [x, y].map(f64::floor);
             // What is no number is not inside either.
             inside &= (x0 >= 0.0) & (x0 < last_column) & (y0 >= 0.0) & (y0 < last_row);
-            (columns[k], rows[k]) = (low_word(x0), low_word(y0));
+            (columns[k], rows[k]) = (low_word_f64(x0), low_word_f64(y0));
             (across[k], down[k]) = ((x - x0) as f32, (y - y0) as f32);
         }
         let channels = self.channels as usize;
@@ -346,14 +347,6 @@ impl Corners {
 pub(crate) fn bilinear([a, b, c, d]: [f32; 4], across: f32, down: f32) -> f32 {
     let (above, below) = (a + (b - a) * across, c + (d - c) * across);
     above + (below - above) * down
-}
-
-/// `x` as an integer, which is whole and in 0..2^32; anything where it is not. As Rust converts
-/// floats, out of bounds too, takes them one by one; here many go at once.
-#[inline(always)]
-fn low_word(x: f64) -> u32 {
-    const LAST_BIT_IS_1: f64 = (1u64 << 52) as f64;
-    (x + LAST_BIT_IS_1).to_bits() as u32
 }
 
 /// The largest integer that is not above `x`: `f64::floor`, which is a call where the

@@ -6,7 +6,7 @@
 use crate::SurfacePoint;
 use fearless_simd::{Bytes, Simd, SimdBase, SimdFloat, SimdInt, f32x16, i32x16, u32x16};
 
-/// Places side by side: one of the widest common vectors.
+/// Places that go through the arithmetic together: one of the widest common vectors.
 pub(crate) const LANES: usize = 16;
 
 /// Where places lie: the triangle, the part of it (see [`Part`](crate::part::Part)), and how far
@@ -47,4 +47,21 @@ impl<S: Simd> Found<S> {
 #[inline(always)]
 pub(crate) fn float<S: Simd>(words: u32x16<S>) -> f32x16<S> {
     words.bitcast::<i32x16<S>>().to_float()
+}
+
+/// `x` as an integer, which is whole and in 0..2^23; anything where it is not. As Rust converts
+/// floats, out of bounds too, takes them one by one; here many go at once.
+#[inline(always)]
+pub(crate) fn low_word(x: f32) -> u32 {
+    const LAST_BIT_IS_1: f32 = (1u32 << 23) as f32;
+    (x + LAST_BIT_IS_1)
+        .to_bits()
+        .wrapping_sub(LAST_BIT_IS_1.to_bits())
+}
+
+/// [`low_word`] of `x` in 0..2^32.
+#[inline(always)]
+pub(crate) fn low_word_f64(x: f64) -> u32 {
+    const LAST_BIT_IS_1: f64 = (1u64 << 52) as f64;
+    (x + LAST_BIT_IS_1).to_bits() as u32
 }

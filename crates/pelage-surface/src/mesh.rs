@@ -271,6 +271,11 @@ impl Mesh {
         area(self.corners(triangle))
     }
 
+    /// Area of all triangles together, summed in their order.
+    pub fn surface_area(&self) -> f64 {
+        (0..self.triangles.len()).map(|t| self.area(t)).sum()
+    }
+
     /// [`corners`](Self::corners) of many triangles with the vertices `triangles`: of each
     /// corner all x, all y, all z.
     #[inline(always)]
@@ -435,7 +440,7 @@ mod tests {
             ..Default::default()
         })
         .unwrap();
-        let area: f64 = (0..mesh.triangles().len()).map(|t| mesh.area(t)).sum();
+        let area = mesh.surface_area();
         assert!((area - 1.0).abs() < 1e-6, "{area}");
     }
 

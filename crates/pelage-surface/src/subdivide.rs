@@ -12,10 +12,11 @@
 use crate::Mesh;
 use crate::cut::{Cutter, Found};
 use crate::density::DensityField;
+use crate::lanes::LANES;
 use crate::pages::Pages;
 use crate::part::{MAX_DEPTH, Table};
 use crate::sums::{PADDING, Run, Sums, divide};
-use crate::window::{Corners, LANES};
+use crate::window::Corners;
 use bytemuck::{Pod, Zeroable};
 use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec2;

@@ -6,12 +6,10 @@
 //! triangles have few each, of one place in each of many.
 
 use crate::image_map::{bilinear, wrapped};
+use crate::lanes::{LANES, low_word};
 use crate::texels::{Numbers, Texels, with_numbers};
 use crate::{ImageMap, Wrap};
 use pelage_curves::Vec2;
-
-/// Places that go through the arithmetic together.
-pub(crate) const LANES: usize = 16;
 
 /// Texels from which on a float could not tell where between two of them a place is.
 const WIDEST: f64 = (1 << 22) as f64;
@@ -65,11 +63,7 @@ impl ImageMap {
     ) {
         let windows = self.windows(&Corners::splat(corners), wrap);
         if !windows.fits[0] {
-            for (value, &weights) in values.iter_mut().zip(weights) {
-                let uv = place(corners, weights);
-                *value = self.sample(uv.x, uv.y, channel, wrap);
-            }
-            return;
+            return self.sample_one_by_one(corners, weights, channel, wrap, values);
         }
         with_numbers!(self.texels(), numbers => {
             let around = Around::new(self, numbers, channel);
@@ -136,11 +130,23 @@ impl ImageMap {
         }
         for (lane, values) in values.iter_mut().enumerate() {
             if !windows.fits[lane] {
-                for (value, &weights) in values.iter_mut().zip(weights) {
-                    let uv = place(corners.get(lane), weights);
-                    *value = self.sample(uv.x, uv.y, channel, wrap);
-                }
+                self.sample_one_by_one(corners.get(lane), weights, channel, wrap, values);
             }
+        }
+    }
+
+    /// [`sample_triangle`](Self::sample_triangle) where texels do not lie side by side.
+    fn sample_one_by_one(
+        &self,
+        corners: [Vec2; 3],
+        weights: &[[f32; 2]],
+        channel: u32,
+        wrap: Wrap,
+        values: &mut [f32],
+    ) {
+        for (value, &weights) in values.iter_mut().zip(weights) {
+            let uv = place(corners, weights);
+            *value = self.sample(uv.x, uv.y, channel, wrap);
         }
     }
 
@@ -302,16 +308,6 @@ impl Windows {
         }
         values
     }
-}
-
-/// `x` as an integer, which is whole and in 0..2^23; anything where it is not. As Rust converts
-/// floats, out of bounds too, takes them one by one; here many go at once.
-#[inline(always)]
-fn low_word(x: f32) -> u32 {
-    const LAST_BIT_IS_1: f32 = (1u32 << 23) as f32;
-    (x + LAST_BIT_IS_1)
-        .to_bits()
-        .wrapping_sub(LAST_BIT_IS_1.to_bits())
 }
 
 #[cfg(test)]

@@ -125,7 +125,7 @@ impl<'a> Pool<'a> {
             .into_par_iter()
             .map(|chunk| {
                 let numbers = chunk * CHUNK..((chunk + 1) * CHUNK).min(self.count);
-                // About two fifths are kept.
+                // About a quarter is kept.
                 let mut found = Found {
                     clusters: Vec::with_capacity(LANES / 2),
                     near: Vec::with_capacity(LANES / 2),

@@ -33,10 +33,6 @@ fn triangles(positions: &[[f32; 3]], corners: &[u32]) -> Mesh {
     .unwrap()
 }
 
-fn area(mesh: &Mesh) -> f64 {
-    (0..mesh.triangles().len()).map(|t| mesh.area(t)).sum()
-}
-
 fn samples(mesh: &Mesh, density: &Density, roots: &[SurfacePoint]) -> Vec<Sample> {
     let value = |root: &SurfacePoint| {
         let uv = mesh.uv(root);
@@ -45,7 +41,7 @@ fn samples(mesh: &Mesh, density: &Density, roots: &[SurfacePoint]) -> Vec<Sample
             .map_or(1.0, |(m, k, w)| m.sample(uv.x, uv.y, k, w)) as f64
     };
     let sampler = RootSampler::new(mesh, density, 0).unwrap();
-    let mean = sampler.weighted_area() / area(mesh);
+    let mean = sampler.weighted_area() / mesh.surface_area();
     let sample = |root: SurfacePoint| {
         let [a, b, c] = mesh.corners(root.triangle as usize);
         Sample {
@@ -69,7 +65,7 @@ fn least_ratio(mesh: &Mesh, density: &Density, roots: &[SurfacePoint]) -> f64 {
     let samples = samples(mesh, density, roots);
     let next = |n: &usize| Some(n + n / 10).filter(|n| *n <= roots.len());
     std::iter::successors(Some(100), next)
-        .map(|n| smallest_distance_ratio(&samples[..n], area(mesh)))
+        .map(|n| smallest_distance_ratio(&samples[..n], mesh.surface_area()))
         .fold(f64::INFINITY, f64::min)
 }
 

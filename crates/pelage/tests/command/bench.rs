@@ -33,6 +33,7 @@ fn measuring_writes_tables_plots_and_data_of_every_method() {
         "Memory",
         "Threads",
         "Order",
+        "Blue noise",
     ] {
         assert!(page.contains(&format!("\n## {heading}")), "{heading}");
     }

@@ -1,7 +1,7 @@
 //! How fast roots that keep their distance are made, and how well they keep it.
 
 use super::maps::Map;
-use super::measure::fastest;
+use super::measure::{fastest, pool_of};
 use super::methods::sampler;
 use super::order::samples;
 use super::surfaces::Surface;
@@ -36,11 +36,7 @@ pub struct Apart {
 /// Measures roots of `surface` by each of `maps`; `quick` makes few.
 pub fn measure(surface: &Surface, maps: &[Map], quick: bool) -> Vec<Apart> {
     let prefixes = &PREFIXES[..if quick { 1 } else { PREFIXES.len() }];
-    // The pool may be refused only where the system has no thread left.
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .build()
-        .expect("a thread pool");
+    let pool = pool_of(1);
     maps.iter()
         .map(|map| pool.install(|| apart(surface, map, prefixes)))
         .collect()
@@ -58,7 +54,7 @@ fn apart(surface: &Surface, map: &Map, prefixes: &[u64]) -> Apart {
         roots.roots(0..count, &mut places);
         seconds
     });
-    let area: f64 = (0..mesh.triangles().len()).map(|t| mesh.area(t)).sum();
+    let area = mesh.surface_area();
     let samples = samples(mesh, &RootPdf::new(&sampler, mesh), area, places.iter());
     let ratio = |&prefix: &u64| smallest_distance_ratio(&samples[..prefix as usize], area);
     Apart {

@@ -103,10 +103,11 @@ pub fn run(quick: bool, say: &Say) -> Result<Results> {
     let (mut rows, mut bytes) = (Vec::new(), Vec::new());
     for &(scene, order) in &ordered {
         let captures = captured(&scene.plan, order);
+        let of_a_hair = bytes_of_a_hair(scene)?;
         for &n in &threads {
             let seconds = warm(&scene.plan, &captures, n, effort.runs)?;
             rows.push(Row::new((scene, order), n, &colds[rows.len()], seconds));
-            bytes.push(bytes_of_a_hair(scene)?);
+            bytes.push(of_a_hair);
             bar.set((colds.len() + rows.len()) as u64);
         }
     }

@@ -68,6 +68,15 @@ impl Effort {
     }
 }
 
+/// A pool of `threads` threads.
+pub fn pool_of(threads: usize) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        // Refused only where the system has no thread left.
+        .expect("a thread pool")
+}
+
 /// Measures `method` with `threads` threads.
 pub fn measure(
     surface: &Surface,
@@ -76,11 +85,7 @@ pub fn measure(
     threads: usize,
     effort: Effort,
 ) -> Row {
-    // The pool may be refused only where the system has no thread left.
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .expect("a thread pool");
+    let pool = pool_of(threads);
     let prepare = |_| {
         let started = Instant::now();
         let prepared = pool.install(|| prepare(method, &surface.mesh, map));

@@ -148,7 +148,7 @@ struct Field<'a> {
 impl<'a> Field<'a> {
     fn new(sampler: &'a RootSampler, surface: &'a Surface, roots: u64) -> Self {
         let mesh = &surface.mesh;
-        let area: f64 = (0..mesh.triangles().len()).map(|t| mesh.area(t)).sum();
+        let area = mesh.surface_area();
         let side = (ROOTS_A_CELL * area / roots as f64).sqrt() as f32;
         let (low, _) = mesh.bounds();
         let mut known = HashMap::new();
