@@ -22,9 +22,13 @@ enum Memory<T> {
     Long(memmap2::MmapMut),
 }
 
-/// Bytes from which on an array is long: two large pages.
+/// Bytes of a large page.
 #[cfg(target_os = "linux")]
-const LONG: usize = 4 << 20;
+const LARGE: usize = 2 << 20;
+
+/// Bytes from which on an array is long.
+#[cfg(target_os = "linux")]
+const LONG: usize = 2 * LARGE;
 
 impl<T: Pod> Pages<T> {
     pub(crate) fn zeroed(len: usize) -> Self {
@@ -50,9 +54,11 @@ impl<T: Pod> Pages<T> {
 
 impl<T: Pod> Memory<T> {
     fn zeroed(len: usize) -> Self {
+        // Memory of whole large pages begins where one can begin.
         #[cfg(target_os = "linux")]
         if len.saturating_mul(size_of::<T>()) >= LONG
-            && let Ok(memory) = memmap2::MmapMut::map_anon(len * size_of::<T>())
+            && let Some(bytes) = (len * size_of::<T>()).checked_next_multiple_of(LARGE)
+            && let Ok(memory) = memmap2::MmapMut::map_anon(bytes)
         {
             // A system without large pages has others.
             let _ = memory.advise(memmap2::Advice::HugePage);
@@ -66,7 +72,7 @@ impl<T: Pod> Memory<T> {
         match self {
             Self::Short(numbers) => numbers,
             #[cfg(target_os = "linux")]
-            Self::Long(memory) => bytemuck::cast_slice(memory),
+            Self::Long(memory) => bytemuck::cast_slice(&memory[..whole::<T>(memory)]),
         }
     }
 
@@ -75,9 +81,18 @@ impl<T: Pod> Memory<T> {
         match self {
             Self::Short(numbers) => numbers,
             #[cfg(target_os = "linux")]
-            Self::Long(memory) => bytemuck::cast_slice_mut(memory),
+            Self::Long(memory) => {
+                let bytes = whole::<T>(memory);
+                bytemuck::cast_slice_mut(&mut memory[..bytes])
+            }
         }
     }
+}
+
+/// Bytes of the numbers that fit `memory`.
+#[cfg(target_os = "linux")]
+fn whole<T>(memory: &[u8]) -> usize {
+    memory.len() / size_of::<T>() * size_of::<T>()
 }
 
 impl<T: Pod> Deref for Pages<T> {
