@@ -145,16 +145,17 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
     fn cut_one(&mut self, triangle: u32, depth: u32, area: f64, shallow: &Shallow) {
         let weight = area * self.density.value() as f64;
         if depth <= SHALLOW {
-            let densities = &shallow.densities[..1 << (2 * depth)];
-            if !shallow.merges {
-                return self.found.add_all(triangle, depth, densities, weight);
-            }
-            let level = &mut self.levels[depth as usize];
-            level.clear();
-            level.extend_from_slice(densities);
-        } else {
-            self.read(triangle, depth);
+            let densities = &shallow.densities;
+            let all = &densities[..1 << (2 * depth)];
+            return match shallow.merges {
+                false => self.found.add_all(triangle, depth, all, weight),
+                true if all.iter().all(|d| *d == all[0]) => {
+                    self.found.add_all(triangle, 0, &all[..1], weight)
+                }
+                true => self.found.add_merged(triangle, densities, weight),
+            };
         }
+        self.read(triangle, depth);
         let uncut = (0..depth)
             .rev()
             .find(|&d| !self.merge(d))
@@ -212,14 +213,48 @@ impl<N: Name> Found<'_, N> {
     fn add_all(&mut self, triangle: u32, depth: u32, densities: &[f32], weight: f64) {
         let share = weight / (1u64 << (2 * depth)) as f64;
         let first = first_part(depth) as u32;
+        let parts = densities.iter().zip(first..);
+        self.extend(
+            triangle,
+            parts.map(|(&density, part)| (part, share * density as f64)),
+        );
+    }
+
+    /// Adds a triangle of [`FEW`] parts, where four of one density make one, but not all.
+    #[inline(always)]
+    fn add_merged(&mut self, triangle: u32, densities: &[f32; FEW], weight: f64) {
+        const FIRST: [u32; 2] = [first_part(SHALLOW) as u32, first_part(SHALLOW - 1) as u32];
+        let mut parts = [(0, 0.0); FEW];
+        let fours = parts
+            .as_chunks_mut()
+            .0
+            .iter_mut()
+            .zip(densities.as_chunks().0);
+        for ((parts, four), i) in fours.zip(0..) {
+            // Three of four weigh nothing where one stands for all: there is nothing to guess.
+            let (first, step, share, others) = match are_one(four) {
+                true => (FIRST[1] + i, 0, weight / (FEW / 4) as f64, 0.0),
+                false => (FIRST[0] + 4 * i, 1, weight / FEW as f64, 1.0),
+            };
+            let parts: &mut [_; 4] = parts;
+            for (k, (part, &density)) in parts.iter_mut().zip(four).enumerate() {
+                let share = if k == 0 { share } else { share * others };
+                *part = (first + step * k as u32, share * density as f64);
+            }
+        }
+        self.extend(triangle, parts.into_iter());
+    }
+
+    /// Adds parts of a triangle with their weights, if they have any.
+    #[inline(always)]
+    fn extend(&mut self, triangle: u32, parts: impl Iterator<Item = (u32, f64)>) {
         let Run { mut len, mut sum } = self.run;
         // In memory of their own the compiler would look for all of these again for each part.
         let (part_bits, names, before) = (self.part_bits, &mut *self.names, &mut *self.before);
-        for (i, &density) in densities.iter().enumerate() {
+        for (part, weight) in parts {
             // Overwritten where it does not count.
-            names[len] = N::new(triangle, first + i as u32, part_bits);
+            names[len] = N::new(triangle, part, part_bits);
             before[len] = sum.to_bits();
-            let weight = share * density as f64;
             len += (weight > 0.0) as usize;
             sum += weight;
         }

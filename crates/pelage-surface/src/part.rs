@@ -120,7 +120,7 @@ impl Packed {
 const UNITS: f32 = (1 << TABLE_DEPTH) as f32;
 
 /// Index of the first part of depth `depth`, which is the number of those above it.
-pub(crate) fn first_part(depth: u32) -> usize {
+pub(crate) const fn first_part(depth: u32) -> usize {
     ((1usize << (2 * depth)) - 1) / 3
 }
 

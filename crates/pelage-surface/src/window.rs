@@ -32,7 +32,11 @@ impl Corners {
     /// The same triangle in all lanes.
     #[inline(always)]
     pub(crate) fn splat(triangle: [Vec2; 3]) -> Self {
-        Self(triangle.map(|corner| corner.to_array().map(|x| [x; LANES])))
+        let mut corners = Self::default();
+        for ([us, vs], corner) in corners.0.iter_mut().zip(triangle) {
+            (*us, *vs) = ([corner.x; LANES], [corner.y; LANES]);
+        }
+        corners
     }
 
     #[inline(always)]
@@ -65,6 +69,7 @@ impl ImageMap {
         if !windows.fits[0] {
             return self.sample_one_by_one(corners, weights, channel, wrap, values);
         }
+        let window = windows.window(0);
         with_numbers!(self.texels(), numbers => {
             let around = Around::new(self, numbers, channel);
             for (weights, values) in weights.chunks(LANES).zip(values.chunks_mut(LANES)) {
@@ -72,7 +77,7 @@ impl ImageMap {
                 for (lane, &[u, v]) in weights.iter().enumerate() {
                     (row[0][lane], row[1][lane]) = (u, v);
                 }
-                values.copy_from_slice(&windows.sample(around, row)[..weights.len()]);
+                values.copy_from_slice(&around.sample(&window, row)[..weights.len()]);
             }
         })
     }
@@ -92,7 +97,7 @@ impl ImageMap {
             with_numbers!(self.texels(), numbers => {
                 let around = Around::new(self, numbers, channel);
                 for (row, weights) in values.iter_mut().zip(weights) {
-                    *row = windows.sample(around, weights.map(|w| [w; LANES]));
+                    *row = around.sample(&windows, weights.map(|w| [w; LANES]));
                 }
             })
         }
@@ -124,7 +129,7 @@ impl ImageMap {
             with_numbers!(self.texels(), numbers => {
                 let around = Around::new(self, numbers, channel);
                 for (lane, values) in values.iter_mut().enumerate() {
-                    *values = windows.only(lane).sample(around, row);
+                    *values = around.sample(&windows.window(lane), row);
                 }
             })
         }
@@ -198,6 +203,37 @@ struct Windows {
     last: [Row; 2],
 }
 
+/// The texels around one triangle, as [`Windows`] has them.
+#[derive(Clone, Copy)]
+struct Window {
+    corners: [Vec2; 3],
+    start: usize,
+    last: [f32; 2],
+}
+
+/// A window in each lane: those of many triangles, or one again and again.
+trait InLanes {
+    fn window(&self, lane: usize) -> Window;
+}
+
+impl InLanes for Window {
+    #[inline(always)]
+    fn window(&self, _: usize) -> Window {
+        *self
+    }
+}
+
+impl InLanes for Windows {
+    #[inline(always)]
+    fn window(&self, lane: usize) -> Window {
+        Window {
+            corners: self.corners.get(lane),
+            start: self.starts[lane],
+            last: [self.last[0][lane], self.last[1][lane]],
+        }
+    }
+}
+
 /// The numbers of an image that are around a texel: of the texel itself, of those on its
 /// right and below it, and of the one below on the right.
 #[derive(Clone, Copy)]
@@ -226,6 +262,37 @@ impl<T: Numbers> Around<T> {
             channels: channels as u32,
             stride: stride as u32,
         }
+    }
+
+    /// Bilinear values at places of each lane's triangle, where the second and third corner
+    /// have the weights `us` and `vs`.
+    #[inline(always)]
+    fn sample(self, windows: &impl InLanes, [us, vs]: [Row; 2]) -> Row {
+        let [mut across, mut down, mut values] = [[0.0; LANES]; 3];
+        let mut first = [0; LANES];
+        for k in 0..LANES {
+            let Window { corners, last, .. } = windows.window(k);
+            let [x, y] = place(corners, [us[k], vs[k]]).to_array();
+            // `clamp` would look in each lane whether its bounds are in order.
+            let column = x.max(0.0).min(last[0]).floor();
+            let row = y.max(0.0).min(last[1]).floor();
+            across[k] = x - column;
+            down[k] = y - row;
+            first[k] = low_word(row) * self.stride + low_word(column) * self.channels;
+        }
+        let mut around = [[0.0; LANES]; 4];
+        let [own, right, below, below_right] = self.numbers;
+        for k in 0..LANES {
+            let at = windows.window(k).start + first[k] as usize;
+            around[3][k] = below_right.number(at);
+            around[0][k] = own.number(at);
+            around[1][k] = right.number(at);
+            around[2][k] = below.number(at);
+        }
+        for k in 0..LANES {
+            values[k] = bilinear(around.each_ref().map(|row| row[k]), across[k], down[k]);
+        }
+        values
     }
 }
 
@@ -266,47 +333,6 @@ impl Windows {
                 inside[axis][k] = (texels[k] - base[k]) as f32;
             }
         }
-    }
-
-    /// Those of one triangle in all lanes.
-    #[inline(always)]
-    fn only(&self, lane: usize) -> Self {
-        Self {
-            fits: [self.fits[lane]; LANES],
-            corners: Corners::splat(self.corners.get(lane)),
-            starts: [self.starts[lane]; LANES],
-            last: [[self.last[0][lane]; LANES], [self.last[1][lane]; LANES]],
-        }
-    }
-
-    /// Bilinear values at one place of each triangle, where the second and third corner have
-    /// the weights `us` and `vs`.
-    #[inline(always)]
-    fn sample<T: Numbers>(&self, texels: Around<T>, [us, vs]: [Row; 2]) -> Row {
-        let [mut across, mut down, mut values] = [[0.0; LANES]; 3];
-        let mut first = [0; LANES];
-        for k in 0..LANES {
-            let [x, y] = place(self.corners.get(k), [us[k], vs[k]]).to_array();
-            // `clamp` would look in each lane whether its bounds are in order.
-            let column = x.max(0.0).min(self.last[0][k]).floor();
-            let row = y.max(0.0).min(self.last[1][k]).floor();
-            across[k] = x - column;
-            down[k] = y - row;
-            first[k] = low_word(row) * texels.stride + low_word(column) * texels.channels;
-        }
-        let mut around = [[0.0; LANES]; 4];
-        let [own, right, below, below_right] = texels.numbers;
-        for k in 0..LANES {
-            let at = self.starts[k] + first[k] as usize;
-            around[3][k] = below_right.number(at);
-            around[0][k] = own.number(at);
-            around[1][k] = right.number(at);
-            around[2][k] = below.number(at);
-        }
-        for k in 0..LANES {
-            values[k] = bilinear(around.each_ref().map(|row| row[k]), across[k], down[k]);
-        }
-        values
     }
 }
 
