@@ -24,6 +24,8 @@ const MIXED: f32 = f32::NAN;
 /// Cuts the triangles of a run.
 pub(crate) struct Cutter<'a, D, N> {
     pub mesh: &'a Mesh,
+    /// Of all triangles of the mesh.
+    pub areas: &'a [f64],
     pub density: &'a D,
     pub table: &'a Table,
     /// Densities of the parts of each depth.
@@ -58,21 +60,12 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
         for (corners, &triangle) in corners.iter_mut().zip(triangles) {
             *corners = uvs(self.mesh, triangle);
         }
-        let mut vertices = vec![[0; 3]; triangles.len()];
-        for (vertices, &triangle) in vertices.iter_mut().zip(triangles) {
-            *vertices = self.mesh.triangles()[triangle as usize];
-        }
         let shallow = self.read_shallow(&corners, depths);
-        for (row, vertices) in vertices.chunks(LANES).enumerate() {
-            let mut block = [vertices[0]; LANES];
-            block[..vertices.len()].copy_from_slice(vertices);
-            let areas = self.mesh.areas(&block);
-            for (k, &area) in areas[..vertices.len()].iter().enumerate() {
-                let k = row * LANES + k;
-                // A NaN has no area either.
-                if area > 0.0 && area.is_finite() {
-                    self.cut_one(triangles[k], depths[k] as u32, area, &shallow[k]);
-                }
+        for ((&triangle, &depth), shallow) in triangles.iter().zip(depths).zip(&shallow) {
+            let area = self.areas[triangle as usize];
+            // A NaN has no area either.
+            if area > 0.0 && area.is_finite() {
+                self.cut_one(triangle, depth as u32, area, shallow);
             }
         }
     }

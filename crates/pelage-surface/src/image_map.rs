@@ -364,11 +364,15 @@ pub(crate) fn floor(x: f64) -> f64 {
 /// Column or row `x` brought into `0..size`. Anything that is no number gives 0.
 #[inline(always)]
 pub(crate) fn wrapped(x: f64, size: u32, wrap: Wrap) -> u32 {
-    if (0.0..size as f64).contains(&x) {
+    let inside = 0.0..size as f64;
+    if inside.contains(&x) {
         return x as u32;
     }
     match wrap {
-        Wrap::Repeat => (x.rem_euclid(size as f64) as u32).min(size - 1),
+        // A remainder takes as long as all the rest, and most are in the next tile.
+        Wrap::Repeat if inside.contains(&(x + inside.end)) => (x + inside.end) as u32,
+        Wrap::Repeat if inside.contains(&(x - inside.end)) => (x - inside.end) as u32,
+        Wrap::Repeat => (x.rem_euclid(inside.end) as u32).min(size - 1),
         Wrap::Clamp => (x.max(0.0) as u32).min(size - 1),
         Wrap::Mirror => {
             let there_and_back = 2.0 * size as f64;

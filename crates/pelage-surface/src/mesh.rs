@@ -276,27 +276,26 @@ impl Mesh {
         (0..self.triangles.len()).map(|t| self.area(t)).sum()
     }
 
-    /// [`corners`](Self::corners) of many triangles with the vertices `triangles`: of each
-    /// corner all x, all y, all z.
+    /// [`corners`](Self::corners) of `N` triangles from `first` on, or of the last where there
+    /// are fewer: of each corner all x, all y, all z.
     #[inline(always)]
-    pub(crate) fn all_corners<const N: usize>(
-        &self,
-        triangles: &[[u32; 3]; N],
-    ) -> [[[f32; N]; 3]; 3] {
+    pub(crate) fn all_corners<const N: usize>(&self, first: usize) -> [[[f32; N]; 3]; 3] {
+        let last = self.triangles.len() - 1;
         let mut corners = [[[0.0; N]; 3]; 3];
-        for (k, vertices) in triangles.iter().enumerate() {
-            for ([x, y, z], &vertex) in corners.iter_mut().zip(vertices) {
+        for k in 0..N {
+            let vertices = self.triangles[(first + k).min(last)];
+            for ([x, y, z], vertex) in corners.iter_mut().zip(vertices) {
                 [x[k], y[k], z[k]] = self.positions[vertex as usize].to_array();
             }
         }
         corners
     }
 
-    /// [`area`](Self::area) of many triangles with the vertices `triangles`: the arithmetic
-    /// runs at once.
+    /// [`area`](Self::area) of the triangles that [`all_corners`](Self::all_corners) gives: the
+    /// arithmetic runs at once.
     #[inline(always)]
-    pub(crate) fn areas<const N: usize>(&self, triangles: &[[u32; 3]; N]) -> [f64; N] {
-        let corners = self.all_corners(triangles);
+    pub(crate) fn areas<const N: usize>(&self, first: usize) -> [f64; N] {
+        let corners: [[[f32; N]; 3]; 3] = self.all_corners(first);
         let mut areas = [0.0; N];
         for (k, one) in areas.iter_mut().enumerate() {
             let [a, b, c] = &corners;

@@ -84,21 +84,28 @@ pub(crate) struct Plan<'a, D> {
     density: &'a D,
     order: &'a [u32],
     depths: Vec<u8>,
+    /// In the order of the mesh.
+    areas: Vec<f64>,
 }
 
 impl<'a, D: DensityField> Plan<'a, D> {
     pub(crate) fn new(mesh: &'a Mesh, order: &'a [u32], density: &'a D) -> Self {
-        // In the order of the mesh the texture coordinates are read one after the other.
+        // In the order of the mesh its arrays are read one number after the other.
         let mut of_mesh = vec![0; order.len()];
+        let mut areas = vec![0.0; order.len()];
         let level = Level::new();
-        let runs = of_mesh.par_chunks_mut(RUN).enumerate();
-        runs.for_each(|(run, depths)| {
+        let runs = (of_mesh.par_chunks_mut(RUN), areas.par_chunks_mut(RUN));
+        let runs = runs.into_par_iter().enumerate();
+        runs.for_each(|(run, (depths, areas))| {
             dispatch!(level, simd => {
                 let _ = simd;
-                for (row, depths) in depths.chunks_mut(LANES).enumerate() {
+                let rows = depths.chunks_mut(LANES).zip(areas.chunks_mut(LANES));
+                for (row, (depths, areas)) in rows.enumerate() {
                     let first = run * RUN + row * LANES;
                     let all = depths_from(mesh, density, first);
                     depths.copy_from_slice(&all[..depths.len()]);
+                    let all: [f64; LANES] = mesh.areas(first);
+                    areas.copy_from_slice(&all[..areas.len()]);
                 }
             })
         });
@@ -108,6 +115,7 @@ impl<'a, D: DensityField> Plan<'a, D> {
             density,
             order,
             depths: order.par_iter().with_min_len(RUN).map(depth).collect(),
+            areas,
         }
     }
 
@@ -159,6 +167,7 @@ impl<'a, D: DensityField> Plan<'a, D> {
             .map(|(stretch, names, before)| {
                 let mut cutter = Cutter {
                     mesh: self.mesh,
+                    areas: &self.areas,
                     density: self.density,
                     table: &table,
                     levels: [const { Vec::new() }; MAX_DEPTH as usize + 1],

@@ -72,13 +72,8 @@ pub(crate) fn along_curve(mesh: &Mesh) -> Vec<u32> {
 #[inline(always)]
 fn place(mesh: &Mesh, (low, high): (Vec3, Vec3), first: usize, indices: &mut [u64]) {
     let side = (high - low).max_element().max(f32::MIN_POSITIVE);
-    let last = mesh.triangles().len() - 1;
     for (row, indices) in indices.chunks_mut(LANES).enumerate() {
-        let mut triangles = [[0; 3]; LANES];
-        for (k, triangle) in triangles.iter_mut().enumerate() {
-            *triangle = mesh.triangles()[(first + row * LANES + k).min(last)];
-        }
-        let [a, b, c] = mesh.all_corners(&triangles);
+        let [a, b, c] = mesh.all_corners::<LANES>(first + row * LANES);
         let mut centres = [[0.0; LANES]; 3];
         for axis in 0..3 {
             for k in 0..LANES {
