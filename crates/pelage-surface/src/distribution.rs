@@ -5,10 +5,9 @@
 //! costs constant time whatever the weights. The sum runs in f64 and is stored as
 //! fractions of 2^64 (errata: floats would leave 4 bits inside an element).
 
+use crate::grid::{Shares, TWO_64, shares};
 use crate::pages::Pages;
-use crate::sums::{PADDING, Sums, TWO_64};
-use fearless_simd::{Level, Simd, SimdBase, dispatch, u32x16};
-use rayon::prelude::*;
+use crate::sums::{PADDING, Sums};
 
 /// A discrete distribution over `0..len`.
 ///
@@ -63,13 +62,15 @@ impl Distribution {
     }
 
     fn of_sums_with_cells(sums: Sums, bits: u32) -> Option<Self> {
-        let (starts, total) = sums.into_starts()?;
-        let len = starts.len() - PADDING;
-        u32::try_from(len).ok()?;
         let shift = 64 - bits.clamp(1, 32);
-        Some(Self {
-            grid: grid(&starts[..len], shift),
+        let Shares {
             starts,
+            grid,
+            total,
+        } = shares(sums, shift)?;
+        Some(Self {
+            starts,
+            grid,
             shift,
             total,
         })
@@ -305,65 +306,10 @@ fn bisect(starts: &[u64], first: usize, last: usize, fraction: u64) -> usize {
     first + starts[first + 1..last + 1].partition_point(|&start| start <= fraction)
 }
 
-/// Cells of the grid that one task fills.
-const RUN: usize = 1 << 14;
-
 /// Bits of the power of two that is nearest to the number of elements.
 fn cell_bits(elements: usize) -> u32 {
     let square = (elements as u128).pow(2);
     square.checked_ilog2().map_or(0, |bits| bits.div_ceil(2))
-}
-
-/// The element that the lower end of each cell falls in, and the last element.
-///
-/// Each element is noted in the first cell whose lower end it holds, if it holds any;
-/// what is noted last before a cell is its element. So nothing depends on a comparison
-/// that processors would have to guess.
-fn grid(starts: &[u64], shift: u32) -> Pages<u32> {
-    let cells = 1usize << (64 - shift);
-    let mut grid = Pages::zeroed(cells + 1);
-    grid[cells] = (starts.len() - 1) as u32;
-    let level = Level::new();
-    let runs = grid[..cells].par_chunks_mut(RUN).enumerate();
-    runs.for_each(|(run, cells)| {
-        let first = (run * RUN) as u64;
-        let last = first + cells.len() as u64 - 1;
-        let holds = |cell: u64| starts.partition_point(|&start| start <= cell << shift);
-        let elements = holds(first) - 1..holds(last);
-        for (start, element) in starts[elements.clone()].iter().zip(elements) {
-            let cell = match start {
-                0 => 0,
-                start => ((start - 1) >> shift) + 1,
-            };
-            cells[cell.saturating_sub(first) as usize] = element as u32;
-        }
-        dispatch!(level, simd => raise(simd, cells));
-    });
-    grid
-}
-
-/// Gives each cell the largest of all up to it. One by one, every second cell would be a
-/// decision to guess.
-#[inline(always)]
-fn raise<S: Simd>(simd: S, cells: &mut [u32]) {
-    let none = u32x16::splat(simd, 0);
-    let mut before = none;
-    let (rows, rest) = cells.as_chunks_mut();
-    for row in rows {
-        let mut cells = u32x16::load_array_ref(simd, row);
-        cells = cells.max(none.slide::<15>(cells));
-        cells = cells.max(none.slide::<14>(cells));
-        cells = cells.max(none.slide::<12>(cells));
-        cells = cells.max(none.slide::<8>(cells));
-        cells = cells.max(before);
-        cells.store_array(row);
-        before = u32x16::splat(simd, cells[15]);
-    }
-    let mut before = before[0];
-    for cell in rest {
-        before = before.max(*cell);
-        *cell = before;
-    }
 }
 
 #[cfg(test)]
@@ -403,22 +349,6 @@ mod tests {
                 prop_assert_eq!(picks.indices[k] as usize, index);
                 let rest = [picks.insides[k], picks.widths[k]];
                 prop_assert_eq!(rest, inside(fraction, share));
-            }
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn the_grid_knows_the_element_at_the_lower_end_of_each_cell(
-            weights in prop::collection::vec(prop_oneof![1e-9f64..1e-3, 1.0f64..1e9], 1..200),
-            bits in 1u32..18,
-        ) {
-            let d = Distribution::with_cells(&weights, bits).unwrap();
-            let starts = &d.starts[..d.len()];
-            for (cell, &element) in d.grid[..1 << bits].iter().enumerate() {
-                let low = (cell as u64) << d.shift;
-                let expected = starts.partition_point(|&start| start <= low) - 1;
-                prop_assert_eq!(element as usize, expected);
             }
         }
     }

@@ -14,6 +14,7 @@ mod drawing;
 mod fixture;
 mod frame;
 mod frames;
+mod grid;
 mod hilbert;
 mod image_map;
 mod interval;

@@ -1,7 +1,6 @@
 //! Weights as what lies before each: what a distribution is made of.
 
 use crate::pages::Pages;
-use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
 /// Entries after the last start of a distribution, so that a pick may read ahead.
@@ -51,46 +50,7 @@ impl Sums {
             runs: runs?,
         })
     }
-
-    /// Where the share of each element begins, in fractions of 2^64, then [`PADDING`] times
-    /// the end of the range; and the sum of all. `None` where there is none to share.
-    pub(crate) fn into_starts(self) -> Option<(Pages<u64>, f64)> {
-        let Self { mut before, runs } = self;
-        let mut total = 0.0;
-        let lower: Vec<f64> = runs
-            .iter()
-            .map(|run| {
-                let before = total;
-                total += run.sum;
-                before
-            })
-            .collect();
-        if total <= 0.0 || !total.is_finite() {
-            return None;
-        }
-        let scale = TWO_64 / total;
-        let len = before.len() - PADDING;
-        before[len..].fill(u64::MAX);
-        let level = Level::new();
-        let places = divide(&mut before, runs.iter().map(|run| run.len));
-        places
-            .into_par_iter()
-            .zip(lower)
-            .for_each(|(starts, lower)| {
-                dispatch!(level, simd => {
-                    let _ = simd;
-                    for start in starts {
-                        // Scaling is monotonic, and a product past the end saturates.
-                        *start = ((lower + f64::from_bits(*start)) * scale) as u64;
-                    }
-                });
-            });
-        Some((before, total))
-    }
 }
-
-/// 2^64.
-pub(crate) const TWO_64: f64 = 18_446_744_073_709_551_616.0;
 
 /// Weights summed at a time.
 const RUN: usize = 1 << 14;
