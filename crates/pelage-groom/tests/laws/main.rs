@@ -1,4 +1,5 @@
-//! The eight laws of the design (ARCHITECTURE.md), each as a test.
+//! The eight laws of the design (ARCHITECTURE.md), each as a test, and by subject in modules what
+//! else holds for the hairs of any plan.
 
 // Clippy's exception for tests does not reach the helpers of an integration test.
 #![allow(clippy::unwrap_used)]
@@ -7,17 +8,19 @@ mod clump;
 mod fixture;
 mod interpolation;
 mod look;
+mod noise;
 mod order;
 mod pose;
 mod ramp;
+mod roots;
+mod running;
+mod shortening;
 mod strand;
 
 use fixture::{Fixture, collect, fibers, kinds, moved, request, strands};
 use pelage_curves::{Vec3, catmull_rom};
-use pelage_groom::{Capture, Clock, Plan, Pose, Scratch, generate, write_roots};
-use pelage_strands::{
-    Amount, BoundsSink, Collect, Sink, SinkError, StrandBuffer, StreamInfo, validate,
-};
+use pelage_groom::{Plan, Pose, generate};
+use pelage_strands::{BoundsSink, StrandBuffer, validate};
 
 fn plan() -> Plan {
     Fixture::default().plan()
@@ -208,245 +211,6 @@ fn law_8_roots_inside_one_small_triangle_do_not_fall_on_lines() {
 }
 
 #[test]
-fn roots_by_themselves_are_those_of_the_hairs() {
-    for fixture in kinds() {
-        let plan = fixture.plan();
-        let hairs = collect(&plan, 0..5000, 1);
-        let mut roots = Collect::default();
-        let request = request(0..5000, 2);
-        write_roots(plan.roots(), &request, None, &mut roots, &mut |_| true).unwrap();
-        let (roots, fibers) = (roots.strands, fibers(&hairs));
-        for (i, root) in roots.points.iter().enumerate() {
-            let hair = i * fibers;
-            assert_eq!(roots.hair_id[i], hairs.hair_id[hair]);
-            assert_eq!(roots.barycentric[i], hairs.barycentric[hair]);
-            assert_eq!(roots.root_rest[i], hairs.root_rest[hair]);
-            if fibers > 1 {
-                continue;
-            }
-            let first = hairs.strand_points(i)[0];
-            assert!(Vec3::from(*root).distance(first) < 1e-6, "{}", fixture.more);
-        }
-    }
-}
-
-#[test]
-fn displaced_roots_stand_off_the_surface_by_the_map_and_the_rest_stays() {
-    let plain = plan();
-    let fixture = Fixture {
-        more: fixture::DISPLACED,
-        ..Fixture::default()
-    };
-    let (flat, bumpy) = (
-        collect(&plain, 0..2000, 1),
-        collect(&fixture.plan(), 0..2000, 1),
-    );
-    assert_eq!(flat.root_rest, bumpy.root_rest);
-    assert_eq!(flat.barycentric, bumpy.barycentric);
-    let mut turned = 0;
-    for i in 0..flat.len() {
-        let [from, to] = [&flat, &bumpy].map(|hair| hair.strand_points(i)[0]);
-        let u = flat.root_uv[i][0];
-        // The map rises with u by steps of 1/128, each 1/64 wide, from 0.5.
-        let inside = (0.02..0.98).contains(&u);
-        let expected = 0.1 * (0.5 + (u * 64.0 - 0.5) / 128.0);
-        assert!(!inside || (from.distance(to) - expected).abs() < 1e-5);
-        let [before, after] = [&flat, &bumpy].map(|hair| {
-            let points = hair.strand_points(i);
-            (points[1] - points[0]).normalize()
-        });
-        turned += usize::from(before.distance(after) > 1e-3);
-    }
-    assert!(turned > 1000, "{turned}");
-}
-
-#[test]
-fn frizz_and_kink_leave_the_root_and_turn_hairs_that_stand_side_by_side_alike() {
-    let fixture = Fixture {
-        flat: true,
-        more: "frizz = { root = 0.2, tip = 0.4 }",
-        ..Fixture::default()
-    };
-    let plain = collect(
-        &Fixture {
-            more: "",
-            ..fixture
-        }
-        .plan(),
-        0..3000,
-        2,
-    );
-    let frizzed = collect(&fixture.plan(), 0..3000, 2);
-    let kinked = "kink = { root = 0.05, tip = 0.1, frequency = [9, 9, 9] }";
-    let kinked = collect(
-        &Fixture {
-            more: kinked,
-            ..fixture
-        }
-        .plan(),
-        0..3000,
-        2,
-    );
-    let moved = |bent: &StrandBuffer, i: usize, k: usize| {
-        bent.strand_points(i)[k] - plain.strand_points(i)[k]
-    };
-    let last = plain.strand_points(0).len() - 1;
-    let (mut most, mut apart) = (0.0f32, 0.0f32);
-    for i in 0..plain.len() {
-        for bent in [&frizzed, &kinked] {
-            assert_eq!(moved(bent, i, 0), Vec3::ZERO);
-        }
-        // Three noises of at most 1.3, by 0.4 and 0.1.
-        most = most.max(moved(&frizzed, i, last).length());
-        assert!(moved(&kinked, i, last).length() < 0.1 * 1.3 * 3f32.sqrt());
-        for j in i + 1..(i + 40).min(plain.len()) {
-            let (p, q) = (plain.root_rest[i], plain.root_rest[j]);
-            let distance = Vec3::from(p).distance(Vec3::from(q));
-            if distance < 0.05 {
-                let difference = moved(&frizzed, i, last).distance(moved(&frizzed, j, last));
-                apart = apart.max(difference / distance);
-            }
-        }
-    }
-    assert!(most > 0.2 && most < 0.4 * 1.3 * 3f32.sqrt(), "{most}");
-    // The noise has a frequency of 1; local frames turn over one radius.
-    assert!(apart < 4.0, "{apart}");
-}
-
-#[test]
-fn a_hair_cut_at_c_ends_at_its_point_c_and_keeps_what_is_before() {
-    let whole = collect(&plan(), 0..2000, 2);
-    for (more, part) in [
-        ("cut.length = 0.7", 0.7f32),
-        ("cut.length = 0.5", 0.5),
-        ("cut.length = 0.01", 0.01),
-        ("cut.length = { map = 'length.png' }", f32::NAN),
-        ("cut.length = { value = 1.0, map = 'one.png' }", 1.0),
-    ] {
-        let fixture = Fixture {
-            more,
-            ..Fixture::default()
-        };
-        let hairs = collect(&fixture.plan(), 0..2000, 2);
-        assert_eq!(hairs.len(), whole.len());
-        for i in 0..hairs.len() {
-            let (cut, all) = (hairs.strand_points(i), whole.strand_points(i));
-            let vertices = hairs.vertices(i);
-            // Widths go from 0.02 to 0 along a whole hair: they tell where it ends.
-            let end = 1.0 - hairs.widths[vertices.end - 1] / 0.02;
-            assert!(part.is_nan() || (end - part).abs() < 1e-5, "{more}: {end}");
-            let pieces = all.len() - 1;
-            let piece = ((end * pieces as f32) as usize).min(pieces - 1);
-            let inside = end * pieces as f32 - piece as f32;
-            let expected = catmull_rom::position(catmull_rom::window(all, piece), inside);
-            let last = cut[cut.len() - 1];
-            assert!(last.distance(expected) < 1e-4, "{more}: {last} {expected}");
-            assert_eq!(cut[..cut.len() - 1], all[..cut.len() - 1]);
-            assert!(cut.len() <= piece + 2 && cut.len() >= 2);
-        }
-    }
-    let none = Fixture {
-        more: "cut.length = 0",
-        ..Fixture::default()
-    };
-    assert!(collect(&none.plan(), 0..100, 1).is_empty());
-}
-
-#[test]
-fn thinning_drops_vertices_where_hairs_are_straight_the_same_ones_in_all_frames() {
-    let more = "output.skip_threshold = 0.9
-        frizz = { tip = 0.3, animation = { amount = 1.0, speed = 0.3 } }";
-    let thin = Fixture {
-        more,
-        ..Fixture::default()
-    }
-    .plan();
-    let all = Fixture {
-        more: "frizz.tip = 0.3",
-        ..Fixture::default()
-    };
-    let (thinned, whole) = (collect(&thin, 0..2000, 2), collect(&all.plan(), 0..2000, 2));
-    assert!(thinned.points.len() * 10 < whole.points.len() * 9);
-    for i in 0..whole.len() {
-        let mut left = thinned.strand_points(i).iter();
-        let widths = &thinned.widths[thinned.vertices(i)];
-        let points = whole.strand_points(i);
-        // What is left are vertices of the whole hair, in order, with their widths.
-        let mut next = left.next();
-        let mut found = 0;
-        for (point, width) in points.iter().zip(&whole.widths[whole.vertices(i)]) {
-            if next == Some(point) {
-                assert_eq!(*width, widths[found]);
-                found += 1;
-                next = left.next();
-            }
-        }
-        assert_eq!(next, None, "hair {i}");
-        assert_eq!(thinned.strand_points(i)[0], points[0]);
-        assert_eq!(widths[found - 1], 0.0);
-    }
-    let (mut capture, mut clock) = (Capture::default(), Clock::default());
-    let (mut scratch, mut out) = (Scratch::default(), StrandBuffer::new());
-    thin.capture(0..2000, &mut capture, &mut clock);
-    for time in [1.0, 5.0, 40.0] {
-        let pose = Pose {
-            time,
-            ..Pose::default()
-        };
-        let posed = thin.posed(&pose).unwrap();
-        thin.evaluate(&capture, &posed, &mut scratch, &mut out, &mut clock);
-        assert_eq!(out.offsets, thinned.offsets);
-        assert!(out.points != thinned.points);
-    }
-}
-
-#[test]
-fn animated_frizz_moves_with_time_and_what_does_not_move_stays() {
-    let at = |more, time| {
-        let plan = Fixture {
-            flat: true,
-            more,
-            ..Fixture::default()
-        }
-        .plan();
-        let (mut capture, mut clock) = (Capture::default(), Clock::default());
-        let (mut scratch, mut out) = (Scratch::default(), StrandBuffer::new());
-        plan.capture(0..500, &mut capture, &mut clock);
-        let pose = Pose {
-            time,
-            ..Pose::default()
-        };
-        plan.evaluate(
-            &capture,
-            &plan.posed(&pose).unwrap(),
-            &mut scratch,
-            &mut out,
-            &mut clock,
-        );
-        out
-    };
-    let (still, moving) = (
-        "frizz = { tip = 0.3 }",
-        "frizz = { tip = 0.3, animation = { amount = 0.5, speed = 0.1, direction = [0, 1, 0] } }",
-    );
-    assert!(at(still, 0.0) == at(still, 9.0));
-    assert!(at(still, 0.0).points != at(moving, 9.0).points);
-    let tips = |time| {
-        let hair = at(moving, time);
-        (0..hair.len())
-            .map(|i| hair.strand_points(i)[6])
-            .collect::<Vec<_>>()
-    };
-    let (before, after, later) = (tips(4.0), tips(4.01), tips(8.0));
-    let distance = |a: &[Vec3], b: &[Vec3]| {
-        let apart = a.iter().zip(b).map(|(p, q)| p.distance(*q));
-        apart.fold(0.0, f32::max)
-    };
-    assert!(distance(&before, &after) < 1e-3);
-    assert!(distance(&before, &later) > 0.02);
-}
-
-#[test]
 fn the_way_the_texture_lies_on_the_surface_does_not_matter() {
     for (more, exceptions) in [
         ("", 0),
@@ -474,32 +238,6 @@ fn the_way_the_texture_lies_on_the_surface_does_not_matter() {
             "{more}: {beyond} of {}",
             straight.points.len()
         );
-    }
-}
-
-#[test]
-fn hairs_too_short_for_their_coordinates_are_left_out_and_counted() {
-    for (amount, left) in [("1e-9", 0), ("1.0", 5000)] {
-        let more = format!("[scale]\namount = {amount}");
-        let fixture = Fixture {
-            flat: true,
-            more: &more,
-            ..Fixture::default()
-        };
-        let mut sink = Collect::default();
-        let mut still = |_| Ok(Pose::default());
-        let request = request(0..5000, 2);
-        let report = generate(
-            &fixture.plan(),
-            &request,
-            &mut still,
-            &mut sink,
-            &mut |_| true,
-        );
-        let report = report.unwrap();
-        assert_eq!(report.strands, left);
-        assert_eq!(report.dropped.without_length, 5000 - left);
-        assert!(validate(&sink.strands).is_empty());
     }
 }
 
@@ -541,88 +279,4 @@ fn every_property_at_its_neutral_value_changes_no_bit() {
         ..bare
     };
     assert!(collect(&bare.plan(), 0..2000, 2) == collect(&scaled.plan(), 0..2000, 2));
-}
-
-#[test]
-fn a_failing_sink_ends_the_run_with_its_words() {
-    struct Full(u64);
-    impl Sink for Full {
-        fn write(&mut self, strands: &StrandBuffer) -> Result<(), SinkError> {
-            self.0 += strands.len() as u64;
-            if self.0 > 3000 {
-                Err(SinkError::new("the disk", "it is full"))
-            } else {
-                Ok(())
-            }
-        }
-    }
-    for threads in [1, 4] {
-        let request = request(0..50_000, threads);
-        let plan = Fixture {
-            count: 50_000,
-            ..Fixture::default()
-        }
-        .plan();
-        let run = generate(
-            &plan,
-            &request,
-            &mut |_| Ok(Pose::default()),
-            &mut Full(0),
-            &mut |_| true,
-        );
-        assert_eq!(
-            run.unwrap_err().to_string(),
-            "cannot write the disk: it is full"
-        );
-    }
-}
-
-#[test]
-fn what_a_run_announces_is_what_comes_where_no_hair_is_left_out() {
-    #[derive(Default)]
-    struct Announced(Option<Amount>);
-    impl Sink for Announced {
-        fn begin(&mut self, info: &StreamInfo) -> Result<(), SinkError> {
-            self.0 = info.at_most;
-            Ok(())
-        }
-        fn write(&mut self, _: &StrandBuffer) -> Result<(), SinkError> {
-            Ok(())
-        }
-    }
-    let mut sink = Announced::default();
-    let request = request(100..1500, 1);
-    let report = generate(
-        &plan(),
-        &request,
-        &mut |_| Ok(Pose::default()),
-        &mut sink,
-        &mut |_| true,
-    )
-    .unwrap();
-    assert_eq!(report.dropped.total(), 0);
-    let came = Amount {
-        strands: report.strands,
-        vertices: report.vertices,
-    };
-    assert_eq!(sink.0, Some(came));
-}
-
-#[test]
-fn a_reused_capture_gives_what_a_fresh_one_gives() {
-    let plan = plan();
-    let (mut capture, mut scratch, mut clock) =
-        (Capture::default(), Scratch::default(), Clock::default());
-    let mut out = StrandBuffer::new();
-    for range in [0..700u64, 100..120, 0..700] {
-        plan.capture(range.clone(), &mut capture, &mut clock);
-        plan.evaluate(
-            &capture,
-            &plan.posed(&Pose::default()).unwrap(),
-            &mut scratch,
-            &mut out,
-            &mut clock,
-        );
-        assert!(out == collect(&plan, range, 1));
-    }
 }
