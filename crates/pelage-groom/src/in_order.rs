@@ -37,16 +37,20 @@ impl Chunks {
     }
 }
 
-/// Makes chunks 0 to `chunks` - 1 on `threads` threads, each with a worker of its own,
-/// and hands them to `take` on this thread, in order, until it fails.
+/// Makes chunks 0 to `chunks` - 1 on `threads` threads, or as many as the system gives, each
+/// with a worker of its own, and hands them to `take` on this thread, in order, until it fails.
 pub(crate) fn in_order<W: Default, C: Default + Send, E>(
     chunks: u64,
     threads: usize,
     make: impl Fn(&mut W, u64, &mut C) + Sync,
     mut take: impl FnMut(u64, &C) -> Result<(), E>,
 ) -> Result<(), E> {
-    if threads > 1 {
-        return together(chunks, threads, &make, &mut take);
+    // More would have nothing to do.
+    let threads = (threads as u64).min(chunks) as usize;
+    if threads > 1
+        && let Some(taken) = together(chunks, threads, &make, &mut take)
+    {
+        return taken;
     }
     let (mut worker, mut chunk) = (W::default(), C::default());
     for number in 0..chunks {
@@ -56,26 +60,22 @@ pub(crate) fn in_order<W: Default, C: Default + Send, E>(
     Ok(())
 }
 
+/// The same on two threads and more; `None` where the system gives none.
 fn together<W: Default, C: Default + Send, E>(
     chunks: u64,
     threads: usize,
     make: &(impl Fn(&mut W, u64, &mut C) + Sync),
     take: &mut impl FnMut(u64, &C) -> Result<(), E>,
-) -> Result<(), E> {
+) -> Option<Result<(), E>> {
     let next = AtomicU64::new(0);
     let (give_empty, take_empty) = mpsc::channel::<C>();
     let (give_full, take_full) = mpsc::channel::<(u64, C)>();
-    // One chunk a thread in the making and one waiting to be taken.
-    for _ in 0..2 * threads {
-        // The receiver lives until the end of this function.
-        let _ = give_empty.send(C::default());
-    }
     let take_empty = Mutex::new(take_empty);
     std::thread::scope(|scope| {
-        for _ in 0..threads {
+        let spawn = |_: &usize| {
             let give_full = give_full.clone();
             let (next, take_empty) = (&next, &take_empty);
-            scope.spawn(move || {
+            let work = move || {
                 let mut worker = W::default();
                 loop {
                     // A poisoned lock means that another thread panicked; stop too.
@@ -95,7 +95,19 @@ fn together<W: Default, C: Default + Send, E>(
                         return;
                     }
                 }
-            });
+            };
+            std::thread::Builder::new()
+                .spawn_scoped(scope, work)
+                .is_ok()
+        };
+        let threads = (0..threads).take_while(spawn).count();
+        if threads == 0 {
+            return None;
+        }
+        // One chunk a thread in the making and one waiting to be taken.
+        for _ in 0..2 * threads {
+            // The receiver lives until the end of this function.
+            let _ = give_empty.send(C::default());
         }
         drop(give_full);
         // Dropping `give_empty` and `take_full` on the way out, in success or failure,
@@ -109,18 +121,37 @@ fn together<W: Default, C: Default + Send, E>(
             };
             early.insert(number, chunk);
             while let Some(chunk) = early.remove(&wanted) {
-                take(wanted, &chunk)?;
+                if let Err(error) = take(wanted, &chunk) {
+                    return Some(Err(error));
+                }
                 wanted += 1;
                 let _ = give_empty.send(chunk);
             }
         }
-        Ok(())
+        Some(Ok(()))
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn chunks_come_in_order_from_any_number_of_threads() {
+        for threads in [0, 1, 2, 5, usize::MAX] {
+            for chunks in [0, 1, 3, 40] {
+                let make = |(): &mut (), number, chunk: &mut u64| *chunk = number * number;
+                let mut taken = Vec::new();
+                let take = |number, chunk: &u64| {
+                    taken.push((number, *chunk));
+                    Ok::<(), ()>(())
+                };
+                assert_eq!(in_order(chunks, threads, make, take), Ok(()));
+                let expected: Vec<_> = (0..chunks).map(|n| (n, n * n)).collect();
+                assert_eq!(taken, expected, "{threads} threads");
+            }
+        }
+    }
 
     #[test]
     fn chunks_are_aligned_and_cover_the_hairs_once() {

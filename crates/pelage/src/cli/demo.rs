@@ -25,7 +25,7 @@ pub fn run(args: &DemoArgs, say: &Say) -> Result<ExitCode> {
         spent(started.elapsed()),
     ));
 
-    let mut job = Job::load(Recipe::load(&written[0])?, args.threads, say)?;
+    let mut job = Job::load(Recipe::load(&written[0])?, args.threads.count(), say)?;
     let output = folder.join("hair.usdc");
     let mut sink = sink_for(&output, &options(false))?;
     let mut hair = FirstFrame::default();

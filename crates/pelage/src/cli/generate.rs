@@ -3,7 +3,7 @@
 use super::args::{GenerateArgs, ViewArgs};
 use super::files::{json, write};
 use super::picture;
-use super::progress::Bar;
+use super::progress::{Bar, PREPARING, Wait};
 use super::say::{Made, Say, grouped, spent};
 use super::stats::Stats;
 use anyhow::{Result, bail};
@@ -52,14 +52,6 @@ pub fn options(ribbons: bool) -> WriteOptions {
     }
 }
 
-/// Threads asked for, where 0 is one a core.
-pub fn threads_of(asked: usize) -> usize {
-    match asked {
-        0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
-        n => n,
-    }
-}
-
 /// A loaded recipe and what is to be made of it.
 pub struct Job {
     loaded: Loaded,
@@ -74,7 +66,7 @@ impl Job {
             Some((first, last)) => (first..=last).map(|f| f as f64).collect(),
             None => Vec::new(),
         };
-        let mut job = Self::load(recipe, args.run.threads, say)?;
+        let mut job = Self::load(recipe, args.run.threads.count(), say)?;
         job.request.hairs = args.run.hairs(job.loaded.plan.count(), "--count")?;
         job.request.order = args.run.order.into();
         let animated = job.loaded.poses.animated_key();
@@ -93,9 +85,11 @@ impl Job {
     /// Loads `recipe` for all its hairs, as a still.
     pub fn load(recipe: Recipe, threads: usize, say: &Say) -> Result<Self> {
         let started = Instant::now();
+        let wait = Wait::new(say, PREPARING);
         let loaded = load_with(recipe)?;
+        drop(wait);
         loaded.plan.notes().iter().for_each(|note| say.note(note));
-        let request = loaded.request(0..loaded.plan.count(), threads_of(threads));
+        let request = loaded.request(0..loaded.plan.count(), threads);
         Ok(Self {
             loaded,
             request,
@@ -190,15 +184,7 @@ impl Job {
             .surface(&loaded.recipe, loaded.plan.rest(), frame)?;
         let surface = posed.as_deref().unwrap_or(loaded.plan.rest());
         let up = self.request.info.up_axis;
-        picture::draw(
-            strands,
-            Some(surface),
-            up,
-            view,
-            self.request.threads,
-            output,
-            say,
-        )
+        picture::draw(strands, Some(surface), up, view, output, say)
     }
 }
 

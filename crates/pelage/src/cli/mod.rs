@@ -24,11 +24,14 @@ mod sample;
 mod say;
 mod space;
 mod stats;
+mod threads;
 mod tube;
 mod values;
 
+use anyhow::Result;
 use args::{Cli, Command};
 use clap::Parser;
+use say::Say;
 use std::process::ExitCode;
 
 /// `inspect` found faults.
@@ -37,29 +40,34 @@ const FAULTS_FOUND: u8 = 3;
 /// Runs the command that the process was started with.
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
-    let say = say::Say::new(cli.quiet);
-    let done = match cli.command {
-        Command::Demo(args) => demo::run(&args, &say),
-        Command::Init(args) => init::run(&args, &say),
-        Command::Generate(args) => generate::run(&args, &say),
-        Command::Sample(args) => sample::run(&args, &say),
-        Command::Render(args) => picture::run(&args, &say),
-        Command::Inspect(args) => inspect::run(&args, &say),
-        Command::Analyze(args) => analyze::run(&args, &say),
-        Command::Fit(args) => fit::run(&args, &say),
-        Command::Tube(args) => tube::run(&args, &say),
-        Command::Bench(args) => bench::run(&args, &say),
-        Command::Gallery(args) => gallery::run(&args, &say),
-        Command::Schema { markdown } => pages::schema(markdown),
-        Command::Import(args) => import::run(&args, &say),
-        Command::Completions { shell } => pages::completions(shell),
-        Command::Man { folder } => pages::man(folder.as_deref(), &say),
-    };
+    let say = Say::new(cli.quiet);
+    let limited = threads::limit(&cli.command);
+    let done = limited.and_then(|()| perform(cli.command, &say));
     match done {
         Ok(code) => code,
         Err(error) => {
             say.error(&error);
             ExitCode::FAILURE
         }
+    }
+}
+
+fn perform(command: Command, say: &Say) -> Result<ExitCode> {
+    match command {
+        Command::Demo(args) => demo::run(&args, say),
+        Command::Init(args) => init::run(&args, say),
+        Command::Generate(args) => generate::run(&args, say),
+        Command::Sample(args) => sample::run(&args, say),
+        Command::Render(args) => picture::run(&args, say),
+        Command::Inspect(args) => inspect::run(&args, say),
+        Command::Analyze(args) => analyze::run(&args, say),
+        Command::Fit(args) => fit::run(&args, say),
+        Command::Tube(args) => tube::run(&args, say),
+        Command::Bench(args) => bench::run(&args, say),
+        Command::Gallery(args) => gallery::run(&args, say),
+        Command::Schema { markdown } => pages::schema(markdown),
+        Command::Import(args) => import::run(&args, say),
+        Command::Completions { shell } => pages::completions(shell),
+        Command::Man { folder } => pages::man(folder.as_deref(), say),
     }
 }

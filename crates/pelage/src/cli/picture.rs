@@ -36,7 +36,6 @@ pub fn run(args: &RenderArgs, say: &Say) -> Result<ExitCode> {
         surface.as_ref(),
         up,
         &args.view,
-        args.threads,
         &args.output,
         say,
     )?;
@@ -69,7 +68,6 @@ pub fn draw(
     surface: Option<&Mesh>,
     up: UpAxis,
     view: &ViewArgs,
-    threads: usize,
     output: &Path,
     say: &Say,
 ) -> Result<()> {
@@ -93,7 +91,7 @@ pub fn draw(
         },
         ..Settings::default()
     };
-    draw_scene(&scene, up, &view.camera, settings, threads, output, say)
+    draw_scene(&scene, up, &view.camera, settings, output, say)
 }
 
 /// The camera that is `asked` for, and for the rest one that frames `scene`.
@@ -111,7 +109,6 @@ pub fn draw_scene(
     up: UpAxis,
     asked: &CameraArgs,
     settings: Settings,
-    threads: usize,
     output: &Path,
     say: &Say,
 ) -> Result<()> {
@@ -119,7 +116,6 @@ pub fn draw_scene(
         width: asked.size.0,
         height: asked.size.1,
         samples: asked.samples.unwrap_or(settings.samples),
-        threads: (threads > 0).then_some(threads),
         ..settings
     };
     let camera = camera(scene, up, asked, settings.aspect());

@@ -1,14 +1,19 @@
-//! Progress bars: drawn on a terminal only, and only for work of over a second.
+//! Progress bars, and a sign where nobody knows how much there is to do: drawn on a terminal
+//! only, and only for work of over a second.
 
 use super::say::Say;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// Work shorter than this gets no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Times between redraws.
+/// What is done before the first hair.
+pub const PREPARING: &str = "reading the recipe's files and preparing roots";
+
 const REDRAWS_A_SECOND: u8 = 10;
 
 /// A bar that appears when its work turns out to take long.
@@ -29,11 +34,10 @@ impl Bar {
         if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }
-        let wanted = !say.is_quiet() && std::io::stderr().is_terminal();
         Self {
             bar,
             since: Instant::now(),
-            wanted,
+            wanted: is_wanted(say),
         }
     }
 
@@ -51,4 +55,55 @@ impl Drop for Bar {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// A sign, and the time that went by, until it is dropped.
+pub struct Wait {
+    bar: ProgressBar,
+    /// Drops its end to say that the work is done, and the thread that shows the sign.
+    shown: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl Wait {
+    /// A sign that `what` goes on ("preparing roots").
+    pub fn new(say: &Say, what: &'static str) -> Self {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        // The template is ours; should it be wrong, a plain sign does.
+        if let Ok(style) = ProgressStyle::with_template("  {spinner} {msg}, {elapsed}") {
+            bar.set_style(style);
+        }
+        bar.set_message(what);
+        let (done, until) = channel();
+        let show = {
+            let bar = bar.clone();
+            move || {
+                if let Err(RecvTimeoutError::Timeout) = until.recv_timeout(PATIENCE) {
+                    bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(REDRAWS_A_SECOND));
+                    bar.enable_steady_tick(Duration::from_secs(1) / REDRAWS_A_SECOND as u32);
+                }
+            }
+        };
+        // Without a thread there is no sign.
+        let thread = is_wanted(say).then(|| Builder::new().spawn(show).ok());
+        Self {
+            bar,
+            shown: thread.flatten().map(|thread| (done, thread)),
+        }
+    }
+}
+
+impl Drop for Wait {
+    fn drop(&mut self) {
+        if let Some((done, thread)) = self.shown.take() {
+            drop(done);
+            // It has nothing that could panic, and nothing to tell.
+            let _ = thread.join();
+        }
+        self.bar.finish_and_clear();
+    }
+}
+
+/// Whether somebody looks.
+fn is_wanted(say: &Say) -> bool {
+    !say.is_quiet() && std::io::stderr().is_terminal()
 }

@@ -7,6 +7,15 @@ pub fn whole(text: &str) -> Result<u64, String> {
         .map_err(|_| "expected a whole number".to_owned())
 }
 
+/// Most threads: as many as the largest machines have, and as systems give.
+const MOST_THREADS: usize = 1024;
+
+/// A number of threads.
+pub fn threads(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|&n: &usize| n <= MOST_THREADS);
+    count.ok_or_else(|| format!("expected 0, which is one a core, to {MOST_THREADS}"))
+}
+
 /// A..B, either end of which may be left out.
 pub fn open_range(text: &str) -> Result<(Option<u64>, Option<u64>), String> {
     let wrong = || "expected A..B, such as 0..1000 or 500..".to_owned();
@@ -151,5 +160,7 @@ mod tests {
         assert_eq!(size("640x480"), Ok((640, 480)));
         assert!(size("640x0").is_err());
         assert_eq!(vector("0, 1.5,-2"), Ok([0.0, 1.5, -2.0]));
+        assert_eq!(threads("16"), Ok(16));
+        assert!(threads("100000").is_err() && threads("-1").is_err());
     }
 }

@@ -1,6 +1,6 @@
 //! What commands about curves take.
 
-use super::CameraArgs;
+use super::{CameraArgs, ThreadArgs};
 use crate::cli::values::{ErrorBound, detail, error_bound, not_negative};
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
@@ -105,9 +105,8 @@ pub struct FitArgs {
     /// The time to fit, where the file has several.
     #[arg(long, value_name = "F", allow_negative_numbers = true)]
     pub frame: Option<f64>,
-    /// Threads to use; 0 is one a core. The bytes are the same for any number.
-    #[arg(long, default_value_t = 0, value_name = "N")]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
     #[command(flatten)]
     pub camera: CameraArgs,
 }

@@ -1,6 +1,6 @@
 //! What commands that grow the hairs of a recipe take, or their roots.
 
-use super::{CameraArgs, ViewArgs};
+use super::{CameraArgs, ThreadArgs, ViewArgs};
 use crate::cli::values::{frames, open_range, whole};
 use anyhow::{Result, bail};
 use clap::{Args, ValueEnum, ValueHint};
@@ -23,9 +23,8 @@ pub struct RunArgs {
     /// The order in which hairs come; each is the same in any.
     #[arg(long, value_enum, default_value_t, value_name = "ORDER")]
     pub order: HairOrder,
-    /// Threads to use; 0 is one a core. The bytes are the same for any number.
-    #[arg(long, default_value_t = 0, value_name = "N")]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
 }
 
 /// The order in which hairs come.

@@ -9,7 +9,8 @@ pub use hairs::{GenerateArgs, SampleArgs, Shown};
 pub use view::{CameraArgs, RenderArgs, Shading, ViewArgs};
 
 use super::import::Dialect;
-use super::values::size;
+use super::threads::cores;
+use super::values::{size, threads};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -87,15 +88,32 @@ pub enum Command {
     },
 }
 
+/// Threads of a command.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct ThreadArgs {
+    /// Threads to use; 0 is one a core. The bytes are the same for any number.
+    #[arg(long = "threads", default_value_t = 0, value_parser = threads, value_name = "N")]
+    asked: usize,
+}
+
+impl ThreadArgs {
+    /// How many there are to be, at least 1.
+    pub fn count(self) -> usize {
+        match self.asked {
+            0 => cores(),
+            asked => asked,
+        }
+    }
+}
+
 /// `pelage demo`.
 #[derive(Debug, Args)]
 pub struct DemoArgs {
     /// Where to put everything.
     #[arg(default_value = "pelage-demo", value_hint = ValueHint::DirPath)]
     pub folder: PathBuf,
-    /// Threads to use; 0 is one a core.
-    #[arg(long, default_value_t = 0)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
     /// Size of the picture.
     #[arg(long, default_value = "1280x720", value_parser = size, value_name = "WxH")]
     pub size: (u32, u32),
@@ -115,9 +133,8 @@ pub struct GalleryArgs {
     /// Size of a picture; a strip has up to four.
     #[arg(long, default_value = "200x200", value_parser = size, value_name = "WxH")]
     pub size: (u32, u32),
-    /// Threads to use; 0 is one a core.
-    #[arg(long, default_value_t = 0)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
 }
 
 /// `pelage init`.

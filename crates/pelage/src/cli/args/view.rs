@@ -1,5 +1,6 @@
 //! What commands that draw pictures take.
 
+use super::ThreadArgs;
 use crate::cli::values::{size, vector};
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
@@ -21,9 +22,8 @@ pub struct RenderArgs {
     /// The time to show, where the file has several.
     #[arg(long, value_name = "F", allow_negative_numbers = true)]
     pub frame: Option<f64>,
-    /// Threads to use; 0 is one a core.
-    #[arg(long, default_value_t = 0, value_name = "N")]
-    pub threads: usize,
+    #[command(flatten)]
+    pub threads: ThreadArgs,
     #[command(flatten)]
     pub view: ViewArgs,
 }

@@ -6,9 +6,9 @@ use super::cost::{Row, bytes_of_a_hair, captured, cold, copying, warm};
 use super::scenes::{Scene, scenes};
 use super::{Findings, machine};
 use crate::cli::files::json;
-use crate::cli::generate::threads_of;
 use crate::cli::progress::Bar;
 use crate::cli::say::{Say, grouped};
+use crate::cli::threads::cores;
 use anyhow::Result;
 use pelage::Order;
 use pelage::groom::Stage;
@@ -76,7 +76,7 @@ const QUICK: Effort = Effort {
 pub fn run(quick: bool, say: &Say) -> Result<Results> {
     let effort = if quick { QUICK } else { FULL };
     let machine = machine();
-    let mut threads = vec![1, threads_of(0)];
+    let mut threads = vec![1, cores()];
     threads.dedup();
     let scenes = scenes(effort.hairs, effort.map_size)?;
     let ordered: Vec<(&Scene, Order)> = scenes

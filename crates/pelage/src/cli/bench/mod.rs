@@ -16,8 +16,8 @@ mod surfaces;
 
 use super::args::{Bench, BenchArgs};
 use super::files::write;
-use super::generate::threads_of;
 use super::say::Say;
+use super::threads::cores;
 use anyhow::{Context, Result};
 use std::process::ExitCode;
 
@@ -54,7 +54,7 @@ pub fn run(args: &BenchArgs, say: &Say) -> Result<ExitCode> {
 
 /// The machine, and how busy it is with other work, where the system tells.
 fn machine() -> String {
-    let cores = threads_of(0);
+    let cores = cores();
     let mut text = format!("{}, {cores} cores", std::env::consts::ARCH);
     let line_of = |path: &str, start: &str| {
         let all = std::fs::read_to_string(path).unwrap_or_default();

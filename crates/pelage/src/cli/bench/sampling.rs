@@ -9,10 +9,10 @@ use super::order::{self, Evenness};
 use super::picks;
 use super::surfaces::{Surface, first_surface, surfaces};
 use crate::cli::files::json;
-use crate::cli::generate::threads_of;
 use crate::cli::plot::{Axes, Line, logarithmic};
 use crate::cli::progress::Bar;
 use crate::cli::say::Say;
+use crate::cli::threads::cores;
 use anyhow::Result;
 use std::fmt::Write;
 
@@ -123,7 +123,7 @@ fn by_size(surface: &Surface, smallest: u32, effort: Effort) -> Vec<Row> {
 }
 
 fn by_threads(surface: &Surface, maps: &[Map], effort: Effort) -> Vec<Row> {
-    let cores = threads_of(0);
+    let cores = cores();
     let doubled = std::iter::successors(Some(1), |n| Some(n * 2));
     let below = doubled.take_while(|&n| n < cores);
     let counts: Vec<usize> = below.chain([cores]).collect();
@@ -164,7 +164,7 @@ impl Results {
 
     /// The tables and plots as Markdown, with what they are.
     fn page(&self) -> String {
-        let cores = threads_of(0);
+        let cores = cores();
         let version = env!("CARGO_PKG_VERSION");
         format!(
             "# Sampling\n\nMade by `pelage bench sampling -o docs/results --json \

@@ -7,7 +7,7 @@ mod strand;
 
 use super::args::FitArgs;
 use super::curves;
-use super::generate::{options, threads_of};
+use super::generate::options;
 use super::progress::Bar;
 use super::say::Say;
 use super::values::ErrorBound;
@@ -42,7 +42,7 @@ pub fn run(args: &FitArgs, say: &Say) -> Result<ExitCode> {
         bail!("{}: there are no curves in it", args.file.display());
     }
     let wish = Wish::of(args);
-    let fitted = fit_all(&strands, &wish, args, say)?;
+    let fitted = fit_all(&strands, &wish, say)?;
     let mut helices = SuperHelices {
         up_axis: file.up_axis,
         meters_per_unit: file.meters_per_unit,
@@ -108,18 +108,13 @@ fn refuse_other_extensions(output: &Path) -> Result<()> {
 }
 
 /// Every strand of `strands`, fitted by many threads; their number changes nothing.
-fn fit_all(strands: &StrandBuffer, wish: &Wish, args: &FitArgs, say: &Say) -> Result<Vec<Fitted>> {
+fn fit_all(strands: &StrandBuffer, wish: &Wish, say: &Say) -> Result<Vec<Fitted>> {
     let bar = Bar::new(say, strands.len() as u64, "strands");
     let done = AtomicU64::new(0);
-    let threads = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads_of(args.threads))
-        .build()?;
-    threads.install(|| {
-        let one = |index| {
-            let fitted = Fitted::new(strands.strand_points(index), wish, index);
-            bar.set(done.fetch_add(1, Ordering::Relaxed) + 1);
-            fitted
-        };
-        (0..strands.len()).into_par_iter().map(one).collect()
-    })
+    let one = |index| {
+        let fitted = Fitted::new(strands.strand_points(index), wish, index);
+        bar.set(done.fetch_add(1, Ordering::Relaxed) + 1);
+        fitted
+    };
+    (0..strands.len()).into_par_iter().map(one).collect()
 }

@@ -63,7 +63,6 @@ pub fn draw(
         width: (args.camera.size.0 / panels.len() as u32).max(1),
         height: args.camera.size.1,
         samples: args.camera.samples.unwrap_or(Settings::default().samples),
-        threads: (args.threads > 0).then_some(args.threads),
         reflection: Reflection::KajiyaKay,
         fiber: Fiber {
             gloss: 0.0,

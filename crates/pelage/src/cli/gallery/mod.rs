@@ -4,7 +4,6 @@ mod subject;
 
 use super::args::GalleryArgs;
 use super::files;
-use super::generate::threads_of;
 use super::progress::Bar;
 use super::say::{Say, spent};
 use anyhow::{Context, Result, bail};
@@ -100,7 +99,7 @@ fn picture(strip: &Strip, value: &str, surfaces: &Surfaces, args: &GalleryArgs) 
     let request = Request {
         order: Order::default(),
         hairs: 0..plan.count(),
-        threads: threads_of(args.threads),
+        threads: args.threads.count(),
         frame: FRAME,
         info: StreamInfo::default(),
     };
@@ -111,7 +110,6 @@ fn picture(strip: &Strip, value: &str, surfaces: &Surfaces, args: &GalleryArgs) 
     let settings = Settings {
         width: args.size.0,
         height: args.size.1,
-        threads: Some(threads_of(args.threads)),
         grid: GRID,
         ..Settings::default()
     };

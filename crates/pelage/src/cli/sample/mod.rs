@@ -4,9 +4,9 @@ mod dots;
 mod paints;
 
 use super::args::{SampleArgs, Shown};
-use super::generate::{options, threads_of};
+use super::generate::options;
 use super::picture::draw_scene;
-use super::progress::Bar;
+use super::progress::{Bar, PREPARING, Wait};
 use super::say::{Made, Say, grouped, spent};
 use anyhow::{Result, bail};
 use dots::{Dots, FirstRoots};
@@ -53,7 +53,9 @@ impl Job {
     fn load(recipe: Recipe, args: &SampleArgs, say: &Say) -> Result<Self> {
         let started = Instant::now();
         let wanted = args.run.hairs(recipe.hair.count, "-n")?;
+        let wait = Wait::new(say, PREPARING);
         let mut loaded = load_roots(recipe)?;
+        drop(wait);
         loaded.plan.notes().iter().for_each(|note| say.note(note));
         if let Some(key) = loaded
             .poses
@@ -71,7 +73,7 @@ impl Job {
                 order: args.run.order.into(),
                 frame: 0.0,
                 hairs: wanted,
-                threads: threads_of(args.run.threads),
+                threads: args.run.threads.count(),
                 info: loaded.info.clone(),
             },
             loaded,
@@ -130,15 +132,7 @@ impl Job {
         let nothing = StrandBuffer::new();
         let scene = Scene::of_strands(&nothing).on(surface).covered(&*paint);
         let up = self.loaded.info.up_axis;
-        draw_scene(
-            &scene,
-            up,
-            &args.camera,
-            plain_light(),
-            args.run.threads,
-            output,
-            say,
-        )?;
+        draw_scene(&scene, up, &args.camera, plain_light(), output, say)?;
         say.line(format_args!(
             "{} ({})",
             output.display(),
