@@ -27,9 +27,10 @@ the same pieces and numbers one hair after the other; `rejection` picks a triang
 and weighs a coin by the map, as document 004 compares (section 4.1). *By interval* is
 `RootSampler::fill_in`: the same roots in the order of the surface, with the indices of
 their hairs. The best of three runs counts; of preprocessing, the best of as many as take
-0.4 s. `sun` is a sky with a disc of a few texels, 10^6 times as bright; `embers` has
-texels whose brightness has no scale. Maps have 1024² texels where nothing else is said.
-Compare within a row: a machine that others share changes its speed from row to row.
+0.4 s before the roots are drawn, and as long after. `sun` is a sky with a disc of a few
+texels, 10^6 times as bright; `embers` has texels whose brightness has no scale. Maps have
+1024² texels where nothing else is said. Compare within a row: a machine that others share
+changes its speed from row to row.
 ";
 
 /// Everything that was measured.
