@@ -145,7 +145,7 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
                 true if all.iter().all(|d| *d == all[0]) => {
                     self.found.add_all(triangle, 0, &all[..1], weight)
                 }
-                true => self.found.add_merged(triangle, densities, weight),
+                true => self.found.add_merged(triangle, depth, 0, densities, weight),
             };
         }
         self.read(triangle, depth);
@@ -158,8 +158,9 @@ impl<D: DensityField, N: Name> Cutter<'_, D, N> {
             self.found.add_all(triangle, depth, densities, weight);
         } else {
             // The parts above are all mixed.
-            for part in 0..1 << (2 * uncut) {
-                self.found.add(&self.levels, triangle, uncut, part, weight);
+            let (levels, first) = (&self.levels[..=depth as usize], uncut.min(depth - SHALLOW));
+            for part in 0..1 << (2 * first) {
+                self.found.add(levels, triangle, first, part, weight);
             }
         }
     }
@@ -213,26 +214,32 @@ impl<N: Name> Found<'_, N> {
         );
     }
 
-    /// Adds a triangle of [`FEW`] parts, where four of one density make one, but not all.
+    /// Adds the [`FEW`] parts of depth `depth` in part `block` of the depth [`SHALLOW`] above;
+    /// four of one density make one, but not all do.
     #[inline(always)]
-    fn add_merged(&mut self, triangle: u32, densities: &[f32; FEW], weight: f64) {
-        const FIRST: [u32; 2] = [first_part(SHALLOW) as u32, first_part(SHALLOW - 1) as u32];
+    fn add_merged(
+        &mut self,
+        triangle: u32,
+        depth: u32,
+        block: usize,
+        densities: &[f32; FEW],
+        weight: f64,
+    ) {
+        let own = first_part(depth) + FEW * block;
+        let above = first_part(depth - 1) + FEW / 4 * block;
+        let share = weight / (1u64 << (2 * depth)) as f64;
         let mut parts = [(0, 0.0); FEW];
-        let fours = parts
-            .as_chunks_mut()
-            .0
-            .iter_mut()
-            .zip(densities.as_chunks().0);
-        for ((parts, four), i) in fours.zip(0..) {
+        let fours = parts.as_chunks_mut().0.iter_mut();
+        for (i, (parts, four)) in fours.zip(densities.as_chunks().0).enumerate() {
             // Three of four weigh nothing where one stands for all: there is nothing to guess.
-            let (first, step, share, others) = match are_one(four) {
-                true => (FIRST[1] + i, 0, weight / (FEW / 4) as f64, 0.0),
-                false => (FIRST[0] + 4 * i, 1, weight / FEW as f64, 1.0),
+            let (first, step, times, others) = match are_one(four) {
+                true => (above + i, 0, 4.0, 0.0),
+                false => (own + 4 * i, 1, 1.0, 1.0),
             };
             let parts: &mut [_; 4] = parts;
             for (k, (part, &density)) in parts.iter_mut().zip(four).enumerate() {
-                let share = if k == 0 { share } else { share * others };
-                *part = (first + step * k as u32, share * density as f64);
+                let times = if k == 0 { times } else { others };
+                *part = ((first + step * k) as u32, share * times * density as f64);
             }
         }
         self.extend(triangle, parts.into_iter());
@@ -255,22 +262,21 @@ impl<N: Name> Found<'_, N> {
     }
 
     /// Adds the largest parts of one density in part `i` of depth `d`, of the densities
-    /// `levels`.
+    /// `levels`, the last of which are read.
     fn add(&mut self, levels: &[Vec<f32>], triangle: u32, d: u32, i: usize, weight: f64) {
         let density = levels[d as usize][i];
-        if density.is_nan() {
+        let deepest = levels.len() as u32 - 1;
+        if !density.is_nan() {
+            let share = weight / (1u64 << (2 * d)) as f64;
+            let part = (first_part(d) + i) as u32;
+            self.extend(triangle, std::iter::once((part, share * density as f64)));
+        } else if d + SHALLOW == deepest {
+            let densities = &levels[deepest as usize].as_chunks().0[i];
+            self.add_merged(triangle, deepest, i, densities, weight);
+        } else {
             for child in 4 * i..4 * i + 4 {
                 self.add(levels, triangle, d + 1, child, weight);
             }
-            return;
-        }
-        let weight = weight / (1u64 << (2 * d)) as f64 * density as f64;
-        if weight > 0.0 {
-            let part = (first_part(d) + i) as u32;
-            self.names[self.run.len] = N::new(triangle, part, self.part_bits);
-            self.before[self.run.len] = self.run.sum.to_bits();
-            self.run.len += 1;
-            self.run.sum += weight;
         }
     }
 }
