@@ -246,7 +246,7 @@ const LONGEST: f32 = 4.0;
 fn depths_from(mesh: &Mesh, density: &impl DensityField, first: usize) -> [u8; LANES] {
     let last = mesh.triangles().len() - 1;
     let (mut areas, mut lengths) = ([0.0; LANES], [0.0; LANES]);
-    let mut corners = Corners::default();
+    let mut corners = Corners::<LANES>::splat([Vec2::ZERO; 3]);
     let mut sizes = [Vec2::ZERO; LANES];
     for (lane, size) in sizes.iter_mut().enumerate() {
         let uv = uvs(mesh, (first + lane).min(last) as u32);

@@ -25,18 +25,19 @@ pub(crate) fn place([a, b, c]: [Vec2; 3], [u, v]: [f32; 2]) -> Vec2 {
 }
 
 /// Triangles of texture space side by side: of each corner all u, then all v.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Corners([[Row; 2]; 3]);
+#[derive(Clone, Copy)]
+pub(crate) struct Corners<const N: usize = LANES>([[[f32; N]; 2]; 3]);
 
-impl Corners {
+impl<const N: usize> Corners<N> {
     /// The same triangle in all lanes.
     #[inline(always)]
-    pub(crate) fn splat(triangle: [Vec2; 3]) -> Self {
-        let mut corners = Self::default();
-        for ([us, vs], corner) in corners.0.iter_mut().zip(triangle) {
-            (*us, *vs) = ([corner.x; LANES], [corner.y; LANES]);
-        }
-        corners
+    pub(crate) fn splat([a, b, c]: [Vec2; 3]) -> Self {
+        let [a, b, c] = [a.to_array(), b.to_array(), c.to_array()];
+        Self([
+            [[a[0]; N], [a[1]; N]],
+            [[b[0]; N], [b[1]; N]],
+            [[c[0]; N], [c[1]; N]],
+        ])
     }
 
     #[inline(always)]
@@ -65,7 +66,7 @@ impl ImageMap {
         wrap: Wrap,
         values: &mut [f32],
     ) {
-        let windows = self.windows(&Corners::splat(corners), wrap);
+        let windows = self.windows(&Corners::<1>::splat(corners), wrap);
         if !windows.fits[0] {
             return self.sample_one_by_one(corners, weights, channel, wrap, values);
         }
@@ -157,16 +158,18 @@ impl ImageMap {
 
     /// The texels around triangles.
     #[inline(always)]
-    fn windows(&self, corners: &Corners, wrap: Wrap) -> Windows {
-        let mut texels = [[[0.0; LANES]; 2]; 3];
+    fn windows<const N: usize>(&self, corners: &Corners<N>, wrap: Wrap) -> Windows<N> {
+        let mut texels = [[[0.0; N]; 2]; 3];
         for (texels, [us, vs]) in texels.iter_mut().zip(&corners.0) {
-            for k in 0..LANES {
+            for k in 0..N {
                 [texels[0][k], texels[1][k]] = self.texels_at([us[k], vs[k]]);
             }
         }
         let mut windows = Windows {
-            fits: [true; LANES],
-            ..Windows::default()
+            fits: [true; N],
+            corners: Corners::splat([Vec2::ZERO; 3]),
+            starts: [0; N],
+            last: [[0.0; N]; 2],
         };
         let channels = self.channels() as usize;
         let strides = [channels, self.width() as usize * channels];
@@ -179,7 +182,7 @@ impl ImageMap {
                 wrap,
             );
         }
-        for k in 0..LANES {
+        for k in 0..N {
             if !windows.fits[k] {
                 windows.starts[k] = 0;
                 [windows.last[0][k], windows.last[1][k]] = [0.0; 2];
@@ -190,17 +193,16 @@ impl ImageMap {
 }
 
 /// The texels around triangles side by side.
-#[derive(Default)]
-struct Windows {
+struct Windows<const N: usize = LANES> {
     /// Whether they lie in the image side by side. Where they do not, the others tell nothing,
     /// but may be read.
-    fits: [bool; LANES],
+    fits: [bool; N],
     /// The triangles, counted from the centre of the first texel.
-    corners: Corners,
+    corners: Corners<N>,
     /// Where the first texel is.
-    starts: [usize; LANES],
+    starts: [usize; N],
     /// Last column and row, from the first, that has another beside it.
-    last: [Row; 2],
+    last: [[f32; N]; 2],
 }
 
 /// The texels around one triangle, as [`Windows`] has them.
@@ -223,7 +225,7 @@ impl InLanes for Window {
     }
 }
 
-impl InLanes for Windows {
+impl<const N: usize> InLanes for Windows<N> {
     #[inline(always)]
     fn window(&self, lane: usize) -> Window {
         Window {
@@ -296,36 +298,39 @@ impl<T: Numbers> Around<T> {
     }
 }
 
-impl Windows {
+impl<const N: usize> Windows<N> {
     /// Takes one axis of corners, in texels, of an image that has `size` texels along it, whose
     /// numbers are `stride` apart.
     #[inline(always)]
     fn set(
         &mut self,
-        texels: [&[f64; LANES]; 3],
+        texels: [&[f64; N]; 3],
         axis: usize,
         (size, stride): (u32, usize),
         wrap: Wrap,
     ) {
         let [a, b, c] = texels;
-        let (mut base, mut span) = ([0.0; LANES], [0.0; LANES]);
+        let (mut base, mut span) = ([0.0; N], [0.0; N]);
         let mut inside = true;
-        for k in 0..LANES {
+        for k in 0..N {
             base[k] = a[k].min(b[k]).min(c[k]).floor();
             span[k] = a[k].max(b[k]).max(c[k]).floor() - base[k];
             inside &= (base[k] >= 0.0) & (base[k] + span[k] + 1.0 < size as f64);
         }
-        let mut first = base.map(|x| x as i32 as u32);
+        let mut first = [0; N];
+        for k in 0..N {
+            first[k] = base[k] as i32 as u32;
+        }
         // Inside, nothing wraps.
         if !inside {
-            for k in 0..LANES {
+            for k in 0..N {
                 first[k] = wrapped(base[k], size, wrap);
                 // In the mirrored tiles texels run the other way.
                 let same = wrapped(base[k] + span[k] + 1.0, size, wrap);
                 self.fits[k] &= span[k] < size as f64 && same == first[k] + span[k] as u32 + 1;
             }
         }
-        for k in 0..LANES {
+        for k in 0..N {
             self.fits[k] &= span[k] < WIDEST;
             self.starts[k] += first[k] as usize * stride;
             self.last[axis][k] = span[k] as f32;
@@ -373,7 +378,7 @@ mod tests {
             weights in prop::collection::vec(prop::array::uniform2(0.0f32..0.5), 1..17),
         ) {
             let map = spots();
-            let (mut corners, mut triangles) = (Corners::default(), Vec::new());
+            let (mut corners, mut triangles) = (Corners::splat([Vec2::ZERO; 3]), Vec::new());
             for (lane, (first, others)) in first.into_iter().zip(others).enumerate() {
                 let [a, b] = others.map(|apart| Vec2::from(first) + Vec2::from(apart));
                 corners.set(lane, [first.into(), a, b]);
