@@ -50,6 +50,34 @@ pub fn logarithmic(axes: &Axes, lines: &[Line]) -> Result<String> {
     })
 }
 
+/// Lines over `names`, which have the places 0, 1 and so on, and a logarithmic axis, as the text
+/// of an SVG file. All heights must be above 0.
+pub fn by_name(axes: &Axes, names: &[&str], lines: &[Line]) -> Result<String> {
+    svg(|root| {
+        let [low, high] = ends(lines, |p| p.1);
+        let across = -0.5..names.len() as f64 - 0.5;
+        let up = ((low / 1.3)..(high * 1.3)).log_scale();
+        let mut chart = builder(root, axes).build_cartesian_2d(across, up)?;
+        let name = |x: &f64| match names.get(x.round() as usize) {
+            Some(name) if x.fract() == 0.0 => (*name).to_owned(),
+            _ => String::new(),
+        };
+        chart
+            .configure_mesh()
+            .disable_x_mesh()
+            // One at each whole number, and some between.
+            .x_labels(2 * names.len())
+            .x_label_formatter(&name)
+            .x_desc(axes.x)
+            .y_desc(axes.y)
+            .light_line_style(BLACK.mix(0.05))
+            .draw()?;
+        series(&mut chart, lines, 3)?;
+        legend(&mut chart, SeriesLabelPosition::LowerLeft)?;
+        Ok(())
+    })
+}
+
 /// Lines over even axes, as the text of an SVG file. All numbers must be finite.
 pub fn linear(axes: &Axes, lines: &[Line]) -> Result<String> {
     svg(|root| {

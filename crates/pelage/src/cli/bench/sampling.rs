@@ -9,7 +9,7 @@ use super::order::{self, Evenness};
 use super::picks;
 use super::surfaces::{Surface, first_surface, surfaces};
 use crate::cli::files::json;
-use crate::cli::plot::{Axes, Line, logarithmic};
+use crate::cli::plot::{Axes, Line, by_name, logarithmic};
 use crate::cli::progress::Bar;
 use crate::cli::say::Say;
 use crate::cli::threads::cores;
@@ -322,7 +322,7 @@ impl Results {
                 .chunks(METHODS.len())
                 .take(self.cells.len())
                 .enumerate()
-                .map(|(map, rows)| (map as f64 + 1.0, rows[k].rate()))
+                .map(|(map, rows)| (map as f64, rows[k].rate()))
                 .collect(),
         });
         Ok(vec![
@@ -339,12 +339,13 @@ impl Results {
             ),
             (
                 "sampling-rates.svg",
-                logarithmic(
+                by_name(
                     &Axes {
-                        title: "Samples on the first surface, one thread",
-                        x: "map, in the order of the tables",
+                        title: "Samples on the first surface by map, one thread",
+                        x: "map",
                         y: "million samples a second",
                     },
+                    &self.cells.iter().map(|(map, _)| *map).collect::<Vec<_>>(),
                     &methods.collect::<Vec<_>>(),
                 )?,
             ),
