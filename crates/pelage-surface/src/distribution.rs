@@ -43,9 +43,9 @@ impl Distribution {
     /// A distribution in proportion to `weights`, which must be positive and finite;
     /// `None` where there is none, where one is not, or for 2^32 or more of them.
     ///
-    /// Its grid has as many cells as elements, rounded to a power of two: up to four times
-    /// as many pick a few percent faster from memory that is near, and slower from memory
-    /// that is far (docs/results/sampling.md).
+    /// Its grid has as many cells as elements, rounded to a power of two: more of them pick
+    /// hardly faster from memory that is near, and slower from memory that is far
+    /// (docs/results/sampling.md).
     pub fn new(weights: &[f64]) -> Option<Self> {
         Self::with_cells(weights, cell_bits(weights.len()))
     }

@@ -13,11 +13,11 @@ pub const CELLS: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 
 /// Millions of picks a second for each of [`CELLS`], of elements with `weights`.
 pub fn by_cells(weights: &[f64], effort: Effort) -> Vec<f64> {
-    let elements = weights.len().next_power_of_two() as f64;
     CELLS
         .iter()
         .map(|cells| {
-            let bits = libm::log2(elements * cells).round() as u32;
+            // The nearest power of two, as `Distribution::new` has it for one cell an element.
+            let bits = libm::log2(weights.len() as f64 * cells).round() as u32;
             // The weights are those of a distribution that was made.
             let distribution = Distribution::with_cells(weights, bits).expect("weights");
             rate(effort, |fraction| distribution.pick(fraction).index)
