@@ -1,4 +1,4 @@
-//! USD text and crates, as meshes and as curves.
+//! USD text, crates and packages, as meshes and as curves.
 
 #![no_main]
 
@@ -19,7 +19,11 @@ fn abort_on_our_panics() {
 
 fuzz_target!(init: abort_on_our_panics(), |bytes: &[u8]| {
     // The reader opens files by itself: USD files may name others.
-    let named = tempfile::Builder::new().suffix(".usd").tempfile();
+    let suffix = match bytes.starts_with(b"PK") {
+        true => ".usdz",
+        false => ".usd",
+    };
+    let named = tempfile::Builder::new().suffix(suffix).tempfile();
     let Ok(mut file) = named else { return };
     if file.write_all(bytes).is_err() {
         return;

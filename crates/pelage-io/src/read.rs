@@ -26,7 +26,7 @@ pub struct MeshFile {
 /// A format that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FileKind {
-    /// OpenUSD text or crate: meshes and curves.
+    /// OpenUSD text, crate or package of them: meshes and curves.
     Usd,
     /// Wavefront OBJ: meshes and polylines.
     Obj,
@@ -57,7 +57,7 @@ impl FileKind {
     /// Extensions, lower case, without the dot.
     pub fn extensions(self) -> &'static [&'static str] {
         match self {
-            FileKind::Usd => &["usd", "usda", "usdc"],
+            FileKind::Usd => &["usd", "usda", "usdc", "usdz"],
             FileKind::Obj => &["obj"],
             FileKind::Ply => &["ply"],
             FileKind::Gltf => &["gltf", "glb"],

@@ -29,7 +29,7 @@ const READERS: &[(&str, Reader)] = &[
 ];
 
 /// Folders tried by `bad_usd.rs`: scenes are read around what is wrong in them.
-const ELSEWHERE: [&str; 3] = ["npz", "usda", "usdc"];
+const ELSEWHERE: [&str; 4] = ["npz", "usda", "usdc", "usdz"];
 
 fn bad() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad")

@@ -1,6 +1,7 @@
 //! Whatever a USD or NumPy file holds, readers answer with data or an error.
 //!
-//! `bad/make_bad.py` makes the files in `bad/usda`, `bad/usdc` and `bad/npz`.
+//! `bad/make_bad.py` makes the files in `bad/usda`, `bad/usdc`, `bad/usdz`
+//! and `bad/npz`.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -76,12 +77,17 @@ fn every_bad_usdc_is_read_or_refused() {
 }
 
 #[test]
+fn every_bad_usdz_is_told_of() {
+    all_are_bad("bad/usdz");
+}
+
+#[test]
 fn every_bad_npz_is_told_of() {
     all_are_bad("bad/npz");
 }
 
 #[test]
-fn folders_missing_files_and_packages_are_refused_by_whose_fault_it_is() {
+fn folders_and_missing_files_are_refused_by_whose_fault_it_is() {
     let missing = read_mesh(&folder("bad/missing.usda"), None).unwrap_err();
     assert_eq!(missing.blame, Blame::World);
     assert_eq!(
@@ -165,6 +171,12 @@ proptest! {
     fn broken_text_does_no_harm(changes in changes(), cut in cut()) {
         read_broken("meshes.usda", &changes, cut);
         read_broken("curves.usda", &changes, cut);
+    }
+
+    #[test]
+    fn broken_packages_do_no_harm(changes in changes(), cut in cut()) {
+        read_broken("meshes.usdz", &changes, cut);
+        read_broken("curves.usdz", &changes, cut);
     }
 
     #[test]

@@ -1,10 +1,10 @@
-//! USD files as Blender imports them (`pip install bpy`, set `PELAGE_PYTHON`).
+//! USD files as Blender imports and exports them (`pip install bpy`, set `PELAGE_PYTHON`).
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests too")]
 
 mod support;
 
-use pelage_io::WriteOptions;
+use pelage_io::{WriteOptions, mesh_frames, read_mesh};
 use pelage_strands::StreamInfo;
 use support::{python, raised, strands, write};
 
@@ -56,4 +56,33 @@ fn blender_imports_curves_with_their_radii_attributes_and_motion() {
             return;
         }
     }
+}
+
+const EXPORT: &str = r#"
+import sys, bpy
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.mesh.primitive_cube_add(size=2)
+cube = bpy.context.object
+for frame, height in [(1, 0), (3, 8)]:
+    cube.location = (0, 0, height)
+    cube.keyframe_insert('location', frame=frame)
+bpy.context.scene.frame_end = 3
+bpy.ops.wm.usd_export(filepath=sys.argv[1], export_animation=True)
+"#;
+
+#[test]
+fn packages_that_blender_exports_are_read_with_their_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("cube.usdz");
+    if !python("bpy", EXPORT, &[&path]) {
+        return;
+    }
+    assert_eq!(mesh_frames(&path).unwrap(), [1.0, 2.0, 3.0]);
+    let last = read_mesh(&path, Some(3.0)).unwrap().mesh;
+    assert_eq!(last.face_sizes, [4; 6]);
+    assert!(
+        last.positions
+            .iter()
+            .all(|[.., z]| (6.99..9.01).contains(z))
+    );
 }

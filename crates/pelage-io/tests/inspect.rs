@@ -43,7 +43,7 @@ fn what_a_file_starts_with_counts_more_than_its_extension() {
     assert_eq!(sniff(&path).unwrap(), FileKind::Obj);
     let (_folder, path) = written("mesh.fbx", "");
     let error = read_mesh(&path, None).unwrap_err().to_string();
-    let listed = ".usd, .usda, .usdc, .obj, .ply, .gltf, .glb";
+    let listed = ".usd, .usda, .usdc, .usdz, .obj, .ply, .gltf, .glb";
     assert!(
         error.ends_with(&format!(".fbx is not read; read are {listed}")),
         "{error}"

@@ -35,7 +35,8 @@ fn assert_near<const N: usize>(found: &[[f32; N]], expected: &[[f32; N]], what: 
     }
 }
 
-const FILES: [&str; 2] = ["usda", "usdc"];
+/// Of `meshes` and `curves`. The package of the curves has two layers.
+const FILES: [&str; 3] = ["usda", "usdc", "usdz"];
 
 #[test]
 fn meshes_are_moved_flipped_and_sampled_as_openusd_does() {
@@ -78,6 +79,25 @@ fn frames_are_samples_of_points_and_transforms() {
         assert_eq!(usd_mesh_frames(&file, None).unwrap(), [0.0, 10.0]);
         let still = usd_mesh_frames(&file, Some("/World/free")).unwrap();
         assert_eq!(still, [0.0f64; 0]);
+    }
+}
+
+#[test]
+fn packages_are_referred_to_from_outside_whole_and_by_their_layers() {
+    let package = reference("meshes.usdz");
+    let folder = tempfile::tempdir().unwrap();
+    // Brackets are no less a name of a folder than of a layer in a package.
+    let folder = folder.path().join("a [1]");
+    std::fs::create_dir(&folder).unwrap();
+    std::fs::copy(&package, folder.join("b.usdz")).unwrap();
+    let whole = read_usd_mesh(&package, None, None).unwrap().mesh;
+    for asset in ["b.usdz", "./b.usdz[meshes.usdc]"] {
+        let text = format!("#usda 1.0\ndef \"a\" (references = @{asset}@</World>) {{}}\n");
+        let scene = folder.join("scene.usda");
+        std::fs::write(&scene, text).unwrap();
+        let read = read_usd_mesh(&scene, None, None).unwrap().mesh;
+        assert_eq!(read.positions, whole.positions, "{asset}");
+        assert_eq!(read.corner_uvs, whole.corner_uvs, "{asset}");
     }
 }
 

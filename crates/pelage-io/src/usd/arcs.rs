@@ -8,8 +8,8 @@
 use super::clips;
 use super::cursor::Broken;
 use super::names;
-use super::stage::load;
-use openusd::ar::{DefaultResolver, ResolvedPath, Resolver};
+use super::resolver::{Files, load};
+use openusd::ar::ResolvedPath;
 use openusd::{sdf, usdc};
 use std::collections::{BTreeSet, HashMap};
 use std::io::Cursor;
@@ -82,7 +82,7 @@ fn may_refer(bytes: &[u8]) -> bool {
 /// Units by number, loaded when an arc first points into them.
 #[derive(Default)]
 struct Graph {
-    files: DefaultResolver,
+    files: Files,
     places: Vec<ResolvedPath>,
     units: Vec<Option<Unit>>,
 }
@@ -180,7 +180,7 @@ impl Graph {
                 "the asset path {asset} is an expression, which is not followed"
             )));
         }
-        let identifier = self.files.create_identifier(asset, Some(from));
+        let identifier = self.files.identifier(asset, Some(from));
         Ok(self.files.resolve(&identifier))
     }
 

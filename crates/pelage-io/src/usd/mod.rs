@@ -1,10 +1,10 @@
-//! Reads USD: `.usda`, `.usdc`, and `.usd` of either kind.
+//! Reads USD: `.usda`, `.usdc`, `.usd` of either kind, and packages of them (`.usdz`).
 //!
 //! The stage is composed (sublayers, references, payloads, variants, instances)
 //! by the crate `openusd`; files are checked before it sees them. Everything is
 //! brought to world space. Prims of purpose `guide` and `proxy`, inactive and
 //! abstract ones and the prototypes of point instancers are left out; invisible
-//! ones are not. USDZ packages are not read.
+//! ones are not.
 
 mod arcs;
 mod clips;
@@ -15,6 +15,8 @@ mod curves;
 mod kind;
 mod mesh;
 mod names;
+mod package;
+mod resolver;
 mod stage;
 mod super_helices;
 mod text_guard;

@@ -1,16 +1,12 @@
 //! Opens a USD stage so that no file can end the process.
 
-use super::cursor::Broken;
-use super::{arcs, crate_guard, names, text_guard};
+use super::resolver::{Guarded, layer_at, load, unsound};
+use super::{arcs, names};
 use crate::ReadError;
-use crate::source::read_bytes;
-use openusd::{ar, sdf, usd};
+use openusd::{sdf, usd};
 use pelage_strands::UpAxis;
-use std::cell::RefCell;
 use std::fmt::Display;
-use std::io;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 
 /// Bytes of stack for composing a stage, which calls itself for every level of
 /// prims and arcs.
@@ -68,14 +64,11 @@ impl Scene {
         let place = absolute
             .canonicalize()
             .map_err(|e| ReadError::world(path, &e))?;
-        let checked = arcs::check(&ar::ResolvedPath::new(place), &bytes);
+        let checked = arcs::check(&layer_at(&place), &bytes);
         checked.map_err(|broken| unsound(path, broken))?;
         drop(bytes);
-        let refused = Rc::new(RefCell::new(None));
-        let resolver = Guarded {
-            files: ar::DefaultResolver::new(),
-            refused: refused.clone(),
-        };
+        let resolver = Guarded::default();
+        let refused = resolver.refused.clone();
         let stage = usd::Stage::builder().resolver(resolver).open(name);
         let stage = stage.map_err(|error| {
             let message = match refused.borrow_mut().take() {
@@ -212,71 +205,7 @@ impl Scene {
     }
 }
 
-/// Reads a layer and checks it.
-pub(super) fn load(path: &Path) -> Result<Vec<u8>, ReadError> {
-    let bytes = read_bytes(path)?;
-    // An archive may start with anything, and `openusd` goes by the name.
-    let is_package = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("usdz"));
-    if is_package || bytes.starts_with(b"PK") {
-        return Err(ReadError::unsupported(path, "USDZ packages are not read")
-            .help("unpack it (it is a zip archive) and read the layer inside"));
-    }
-    let checked = if bytes.starts_with(openusd::usdc::MAGIC) {
-        crate_guard::check(&bytes)
-    } else if bytes.trim_ascii_start().starts_with(b"#usda") {
-        text_guard::check(&bytes)
-    } else {
-        Err(Broken(
-            "it starts neither with #usda nor with PXR-USDC".into(),
-        ))
-    };
-    checked.map_err(|broken| unsound(path, broken))?;
-    Ok(bytes)
-}
-
 /// The first line of a message; some parsers draw pictures below it.
 fn one_line(message: &str) -> String {
     message.lines().next().unwrap_or_default().into()
-}
-
-fn unsound(path: &Path, Broken(what): Broken) -> ReadError {
-    ReadError::file(path, format!("no sound USD: {what}"))
-}
-
-/// Finds files as usual and checks every layer before it is parsed.
-struct Guarded {
-    files: ar::DefaultResolver,
-    /// Why the last layer was refused.
-    refused: Rc<RefCell<Option<String>>>,
-}
-
-impl ar::Resolver for Guarded {
-    fn create_identifier(&self, asset_path: &str, anchor: Option<&ar::ResolvedPath>) -> String {
-        self.files.create_identifier(asset_path, anchor)
-    }
-
-    fn resolve(&self, asset_path: &str) -> Option<ar::ResolvedPath> {
-        // Packages are archives, whose contents may unpack to anything.
-        match ar::is_package_relative_path(asset_path) {
-            true => None,
-            false => self.files.resolve(asset_path),
-        }
-    }
-
-    fn resolve_for_new_asset(&self, asset_path: &str) -> Option<ar::ResolvedPath> {
-        self.files.resolve_for_new_asset(asset_path)
-    }
-
-    fn open_asset(&self, resolved: &ar::ResolvedPath) -> io::Result<Box<dyn ar::Asset>> {
-        match load(resolved) {
-            Ok(bytes) => Ok(Box::new(io::Cursor::new(bytes))),
-            Err(refusal) => {
-                let message = refusal.to_string();
-                *self.refused.borrow_mut() = Some(message.clone());
-                Err(io::Error::other(message))
-            }
-        }
-    }
 }

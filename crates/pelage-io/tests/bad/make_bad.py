@@ -181,6 +181,51 @@ def write_usdc():
             write(f"array_at_{at}", patched(at, 1 << 50))
 
 
+def write_usdz():
+    layer = mesh().encode()
+    crate = Path("../reference/meshes.usdc").read_bytes()
+
+    def write(name, *entries, **options):
+        with zipfile.ZipFile(f"usdz/{name}.usdz", "w", **options) as archive:
+            for entry, data in entries:
+                # Always the same time, for always the same bytes.
+                archive.writestr(zipfile.ZipInfo(entry), data, options.get("compression"))
+
+    def refers(to):
+        return (HEADER + f'(\n defaultPrim = "a"\n)\ndef "a" (references = @{to}@) {{}}\n').encode()
+
+    Path("usdz/empty.usdz").write_bytes(b"")
+    Path("usdz/no_zip.usdz").write_bytes(layer)
+    Path("usdz/no_archive.usdz").write_bytes(b"PK\x03\x04 and then nothing")
+    write("no_entries")
+    write("no_layer_first", ("body.png", b"not a layer"), ("body.usda", layer))
+    write("folder_first", ("parts/", b""), ("parts/body.usda", layer))
+    write("compressed", ("body.usdc", crate), compression=zipfile.ZIP_DEFLATED)
+    write("bomb", ("body.usda", layer + bytes(80_000_000)), compression=zipfile.ZIP_DEFLATED)
+    write("broken_layer", ("body.usdc", crate[: len(crate) // 2]))
+    write("layer_of_other_kind", ("body.usdc", layer))
+    write("refers_to_no_entry", ("body.usda", refers("./missing.usda")))
+    write("refers_to_itself", ("body.usda", refers("./body.usda")))
+    write("refers_in_a_circle", ("a.usda", refers("b.usda")), ("b.usda", refers("./a.usda")))
+    write("refers_to_its_package", ("body.usda", refers("../refers_to_its_package.usdz")))
+    write("package_in_package", ("body.usda", refers("inner.usdz")), ("inner.usdz", layer))
+    write("layer_in_inner_package", ("a.usda", refers("inner.usdz[b.usda]")), ("inner.usdz", b""))
+    write("good", ("body.usdc", crate))
+    good = Path("usdz/good.usdz").read_bytes()
+    Path("usdz/good.usdz").unlink()
+
+    def patched(name, at, data):
+        Path(f"usdz/{name}.usdz").write_bytes(good[:at] + data + good[at + len(data) :])
+
+    central = good.rindex(b"PK\x01\x02")
+    Path("usdz/truncated.usdz").write_bytes(good[: len(good) // 2])
+    patched("changed_byte", good.index(b"PXR-USDC") + 2000, b"\xff")
+    patched("encrypted", central + 8, b"\x01")
+    patched("sizes_huge", central + 20, b"\xfe\xff\xff\xff\xfe\xff\xff\xff")
+    patched("header_elsewhere", central + 42, b"\xff\xff\xff\x7f")
+    patched("entries_many", good.rindex(b"PK\x05\x06") + 8, b"\xff\xff\xff\xff")
+
+
 def write_npz():
     def write(name, **arrays):
         np.savez(f"npz/{name}.npz", **arrays)
@@ -232,4 +277,5 @@ def write_npz():
 
 write_usda()
 write_usdc()
+write_usdz()
 write_npz()

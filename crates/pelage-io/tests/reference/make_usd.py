@@ -4,7 +4,11 @@ Needs `pip install usd-core`. Run in this folder.
 """
 
 import json
-from pxr import Gf, Sdf, Usd, UsdGeom, Vt
+import shutil
+import tempfile
+from pathlib import Path
+
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdUtils, Vt
 
 TIMES = [None, 0.0, 2.5, 10.0, 99.0]
 
@@ -202,6 +206,23 @@ def packed(name):
     stage.Save()
 
 
+def packages():
+    """A package of one layer, and one whose root layer refers to another."""
+    UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath("meshes.usdc"), "meshes.usdz")
+    with tempfile.TemporaryDirectory() as folder:
+        parts = Path(folder, "parts")
+        parts.mkdir()
+        shutil.copy("curves.usdc", parts)
+        scene = str(Path(folder, "scene.usda"))
+        stage = Usd.Stage.CreateNew(scene)
+        UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
+        UsdGeom.SetStageMetersPerUnit(stage, 0.01)
+        hair = stage.DefinePrim("/Hair")
+        hair.GetReferences().AddReference("./parts/curves.usdc", "/Hair")
+        stage.Save()
+        UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(scene), "curves.usdz")
+
+
 def main():
     packed("packed.usdc")
     expected = {"meshes": {}, "curves": {}}
@@ -221,6 +242,7 @@ def main():
             for prim in stage.Traverse()
             if prim.IsA(UsdGeom.BasisCurves)
         }
+    packages()
     with open("usd_expected.json", "w") as file:
         json.dump(expected, file, separators=(",", ":"))
 
