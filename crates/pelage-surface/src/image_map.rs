@@ -1,35 +1,14 @@
 //! Images that modulate properties over the surface.
 
+use crate::bilinear::{Around, Corners};
 use crate::lanes::low_word_f64;
 use crate::texels::{Numbers, Texels, with_numbers};
+use crate::wrap::{Wrap, wrapped};
 use fearless_simd::{Level, dispatch};
 use pelage_curves::Vec2;
 
 /// Places that are read together.
 const BATCH: usize = 64;
-
-/// What lies outside 0..1 in texture space.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Wrap {
-    /// The image repeats.
-    #[default]
-    Repeat,
-    /// The border texels go on.
-    Clamp,
-    /// The image and its mirror image take turns: upright in 0..1 and every second
-    /// tile from there, reflected in u, v or both between them.
-    Mirror,
-}
-
-impl Wrap {
-    /// Column and row (from the top) of the texel that `uv` falls in, in an image of
-    /// `size` columns and rows.
-    pub fn texel(self, [u, v]: [f32; 2], [width, height]: [u32; 2]) -> [u32; 2] {
-        let x = (u as f64 * width as f64).floor();
-        let y = ((1.0 - v as f64) * height as f64).floor();
-        [wrapped(x, width, self), wrapped(y, height, self)]
-    }
-}
 
 /// Why pixels are no map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -304,105 +283,16 @@ impl ImageMap {
     }
 }
 
-/// The four texels around a place and how far it lies between them.
-pub(crate) struct Around {
-    pub columns: [u32; 2],
-    pub rows: [u32; 2],
-    across: f32,
-    down: f32,
-}
-
-impl Around {
-    #[inline(always)]
-    fn texels(&self, texel: impl Fn(u32, u32) -> f32) -> f32 {
-        self.blend(|i, j| texel(self.columns[i], self.rows[j]))
-    }
-
-    /// Mixes the four values `at(i, j)` of column `i` and row `j` of these.
-    #[inline(always)]
-    pub(crate) fn blend(&self, at: impl Fn(usize, usize) -> f32) -> f32 {
-        let four = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
-        bilinear(four, self.across, self.down)
-    }
-}
-
-/// Where the four texels around a place begin, and how far it lies between them.
-#[derive(Clone, Copy, Default)]
-struct Corners {
-    starts: [usize; 4],
-    across: f32,
-    down: f32,
-}
-
-impl Corners {
-    #[inline(always)]
-    fn blend(&self, texel: impl Fn(usize) -> f32) -> f32 {
-        bilinear(self.starts.map(texel), self.across, self.down)
-    }
-}
-
-/// Mixes four values, two of a row and two of the row below. Written as differences so
-/// that equal values give that very value.
-#[inline(always)]
-pub(crate) fn bilinear([a, b, c, d]: [f32; 4], across: f32, down: f32) -> f32 {
-    let (above, below) = (a + (b - a) * across, c + (d - c) * across);
-    above + (below - above) * down
-}
-
 /// The largest integer that is not above `x`: `f64::floor`, which is a call where the
 /// processor is only asked for its oldest instructions.
 #[inline(always)]
-pub(crate) fn floor(x: f64) -> f64 {
+fn floor(x: f64) -> f64 {
     const NO_FRACTIONS: f64 = (1u64 << 52) as f64;
     if x.abs() >= NO_FRACTIONS {
         return x;
     }
     let whole = x as i64 as f64;
     if whole > x { whole - 1.0 } else { whole }
-}
-
-/// Column or row `x` brought into `0..size`. Anything that is no number gives 0.
-#[inline(always)]
-pub(crate) fn wrapped(x: f64, size: u32, wrap: Wrap) -> u32 {
-    let inside = 0.0..size as f64;
-    if inside.contains(&x) {
-        return x as u32;
-    }
-    match wrap {
-        // A remainder takes as long as all the rest, and most are in the next tile.
-        Wrap::Repeat if inside.contains(&(x + inside.end)) => (x + inside.end) as u32,
-        Wrap::Repeat if inside.contains(&(x - inside.end)) => (x - inside.end) as u32,
-        Wrap::Repeat => (x.rem_euclid(inside.end) as u32).min(size - 1),
-        Wrap::Clamp => (x.max(0.0) as u32).min(size - 1),
-        Wrap::Mirror => {
-            let there_and_back = 2.0 * size as f64;
-            let x = x.rem_euclid(there_and_back);
-            (x.min(there_and_back - 1.0 - x) as u32).min(size - 1)
-        }
-    }
-}
-
-/// Linear value of an sRGB code in 0..=1 (IEC 61966-2-1); values outside are kept
-/// on the curve's continuation. `libm`, so the same on every machine.
-///
-/// ```
-/// assert!((pelage_surface::linear_from_srgb(0.5) - 0.21404).abs() < 1e-5);
-/// ```
-pub fn linear_from_srgb(code: f32) -> f32 {
-    if code <= 0.04045 {
-        code / 12.92
-    } else {
-        libm::powf((code + 0.055) / 1.055, 2.4)
-    }
-}
-
-/// sRGB code of a linear value; the inverse of [`linear_from_srgb`].
-pub fn srgb_from_linear(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        linear * 12.92
-    } else {
-        1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055
-    }
 }
 
 #[cfg(test)]
@@ -500,13 +390,5 @@ mod tests {
             "texel (column 1, row 0 from the top, channel 1, counted from 0) is NaN; \
             maps must be finite: paint over it"
         );
-    }
-
-    #[test]
-    fn srgb_and_back_is_the_identity() {
-        for i in 0..=255 {
-            let code = i as f32 / 255.0;
-            assert!((srgb_from_linear(linear_from_srgb(code)) - code).abs() < 1e-5);
-        }
     }
 }

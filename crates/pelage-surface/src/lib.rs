@@ -2,6 +2,7 @@
 //! on a surface, and roots sampled by density.
 
 mod along_surface;
+mod bilinear;
 mod blue_noise;
 mod bulk;
 mod closest;
@@ -32,6 +33,7 @@ mod sampler;
 mod scramble;
 mod sequence;
 mod sheet;
+mod srgb;
 mod subdivide;
 mod sums;
 mod tangents;
@@ -41,6 +43,7 @@ mod triangle_order;
 mod triangulate;
 mod voxels;
 mod window;
+mod wrap;
 
 pub use along_surface::AlongSurface;
 pub use blue_noise::BlueNoise;
@@ -49,11 +52,13 @@ pub use density::Density;
 pub use displacement::Displacement;
 pub use distribution::{Distribution, Pick};
 pub use frame::{RootFrame, SurfacePoint};
-pub use image_map::{ImageMap, MapError, Wrap, linear_from_srgb, srgb_from_linear};
+pub use image_map::{ImageMap, MapError};
 pub use mesh::{Mesh, MeshError, PolygonMesh};
 pub use pdf::RootPdf;
 pub use sampler::RootSampler;
 pub use sequence::{RootSequence, Spread, hash, radical_inverse};
+pub use srgb::{linear_from_srgb, srgb_from_linear};
 pub use texels::{Codes, Texels};
 pub use tiles::{TiledDensity, Tiles, tile_number};
 pub use voxels::VoxelRoots;
+pub use wrap::Wrap;

@@ -5,8 +5,8 @@
 //! size next to it goes on: a set cut out of one image reads as that image does.
 
 use crate::ImageMap;
+use crate::bilinear::Around;
 use crate::density::DensityField;
-use crate::image_map::Around;
 use pelage_curves::Vec2;
 use std::sync::Arc;
 

@@ -5,9 +5,10 @@
 //! arithmetic of many places runs at once: of the places of one triangle or, where
 //! triangles have few each, of one place in each of many.
 
-use crate::image_map::{bilinear, wrapped};
+use crate::bilinear::bilinear;
 use crate::lanes::{LANES, low_word};
 use crate::texels::{Numbers, Texels, with_numbers};
+use crate::wrap::wrapped;
 use crate::{ImageMap, Wrap};
 use pelage_curves::Vec2;
 
