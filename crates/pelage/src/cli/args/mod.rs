@@ -220,7 +220,8 @@ pub struct BenchArgs {
 /// What can be measured.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum Bench {
-    /// Drawing roots: rates, preprocessing and memory against other methods.
+    /// Drawing roots: rates, preprocessing and memory against other methods. Compares
+    /// with the packages of the Python that PELAGE_PYTHON names.
     Sampling,
     /// Growing hairs: seconds and cost by stage, with everything made and with what
     /// was taken of the rest pose kept.

@@ -10,6 +10,7 @@ mod measure;
 mod methods;
 mod order;
 mod picks;
+mod python;
 mod sampling;
 mod scenes;
 mod surfaces;
@@ -34,7 +35,7 @@ pub struct Findings {
 /// Measures, prints the tables and writes what was asked for.
 pub fn run(args: &BenchArgs, say: &Say) -> Result<ExitCode> {
     let found = match args.what {
-        Bench::Sampling => sampling::run(args.quick, say).findings()?,
+        Bench::Sampling => sampling::run(args.quick, say)?.findings()?,
         Bench::Curves => curves::run(args.quick, say)?.findings()?,
         Bench::Generation => generation::run(args.quick, say)?.findings()?,
     };

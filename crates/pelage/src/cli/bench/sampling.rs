@@ -1,7 +1,7 @@
 //! `pelage bench sampling`: the tables of document 004, section 4.1, measured again.
 
 use super::Findings;
-use super::distance::{self, Apart};
+use super::distance::{self, Distances};
 use super::maps::{Map, map, maps};
 use super::measure::{Effort, Row, measure};
 use super::methods::{INTERVAL, METHODS, sampler};
@@ -45,8 +45,8 @@ pub struct Results {
     pub threads: Vec<Row>,
     /// How evenly roots are spread by the order of the pieces.
     pub evenness: Vec<Evenness>,
-    /// Roots that keep their distance, by map.
-    pub apart: Vec<Apart>,
+    /// Roots that keep their distance.
+    pub distances: Distances,
     /// Picks a second by the size of the grid.
     pub cells: Vec<(&'static str, Vec<f64>)>,
     /// Picks a second from skies, with and without the grid.
@@ -54,7 +54,7 @@ pub struct Results {
 }
 
 /// Measures everything; `quick` takes one surface and few samples.
-pub fn run(quick: bool, say: &Say) -> Results {
+pub fn run(quick: bool, say: &Say) -> Result<Results> {
     let effort = match quick {
         true => Effort {
             samples: 1 << 16,
@@ -91,7 +91,7 @@ pub fn run(quick: bool, say: &Say) -> Results {
             .map(|i| all.probability(i))
             .collect::<Vec<_>>()
     };
-    Results {
+    Ok(Results {
         sizes: by_size(first, if quick { 64 } else { 512 }, effort),
         threads: by_threads(first, &maps, effort),
         cells: maps
@@ -102,11 +102,11 @@ pub fn run(quick: bool, say: &Say) -> Results {
             .iter()
             .map(|map| (map.name, picks::sky(map, effort)))
             .collect(),
-        apart: distance::measure(first, &maps, quick),
+        distances: distance::measure(first, &maps, quick)?,
         evenness,
         intervals,
         rates,
-    }
+    })
 }
 
 fn by_size(surface: &Surface, smallest: u32, effort: Effort) -> Vec<Row> {
@@ -212,7 +212,7 @@ impl Results {
         }
         self.by_threads(text)?;
         order::write_tables(&self.evenness, text)?;
-        distance::write_table(&self.apart, text)?;
+        distance::write_tables(&self.distances, text)?;
         writeln!(
             text,
             "\n## Cells of the grid an element, million picks a second\n"

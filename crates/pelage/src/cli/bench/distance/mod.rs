@@ -1,12 +1,16 @@
 //! How fast roots that keep their distance are made, and how well they keep it.
 
+mod peers;
+
 use super::maps::Map;
 use super::measure::{fastest, pool_of};
 use super::methods::sampler;
 use super::order::samples;
 use super::surfaces::Surface;
+use anyhow::Result;
+use peers::Peer;
 use pelage::surface::quality::smallest_distance_ratio;
-use pelage::surface::{BlueNoise, RootPdf};
+use pelage::surface::{BlueNoise, Mesh, RootPdf, RootSampler, SurfacePoint};
 use std::fmt::Write;
 use std::time::Instant;
 
@@ -23,9 +27,17 @@ so many could keep at the density there. Maps whose texels leap leave less of it
 between two densities is too near by one of them.
 ";
 
+/// How well roots keep their distance.
+#[derive(Clone, Debug)]
+pub struct Distances {
+    maps: Vec<Apart>,
+    /// Beside other programs; empty where not asked for.
+    peers: Vec<Peer>,
+}
+
 /// Roots that keep their distance, by one map.
 #[derive(Clone, Debug)]
-pub struct Apart {
+struct Apart {
     map: &'static str,
     /// Millions of roots a second.
     rate: f64,
@@ -33,27 +45,29 @@ pub struct Apart {
     ratios: Vec<f64>,
 }
 
-/// Measures roots of `surface` by each of `maps`; `quick` makes few.
-pub fn measure(surface: &Surface, maps: &[Map], quick: bool) -> Vec<Apart> {
+/// Measures roots of `surface` by each of `maps`, and beside other programs; `quick` makes
+/// few, and only ours.
+pub fn measure(surface: &Surface, maps: &[Map], quick: bool) -> Result<Distances> {
     let prefixes = &PREFIXES[..if quick { 1 } else { PREFIXES.len() }];
+    let by_map = || {
+        maps.iter()
+            .map(|map| apart(surface, map, prefixes))
+            .collect()
+    };
     let pool = pool_of(1);
-    maps.iter()
-        .map(|map| pool.install(|| apart(surface, map, prefixes)))
-        .collect()
+    Ok(Distances {
+        maps: pool.install(by_map),
+        peers: match quick {
+            true => Vec::new(),
+            false => pool.install(|| peers::measure(surface))?,
+        },
+    })
 }
 
 fn apart(surface: &Surface, map: &Map, prefixes: &[u64]) -> Apart {
     let count = prefixes[prefixes.len() - 1];
     let (mesh, sampler) = (&surface.mesh, sampler(&surface.mesh, map));
-    let mut places = Vec::new();
-    let seconds = fastest(3, || {
-        let started = Instant::now();
-        let roots = BlueNoise::new(mesh, &sampler, count);
-        let seconds = started.elapsed().as_secs_f64();
-        places.clear();
-        roots.roots(0..count, &mut places);
-        seconds
-    });
+    let (seconds, places) = made(mesh, &sampler, count);
     let area = mesh.surface_area();
     let samples = samples(mesh, &RootPdf::new(&sampler, mesh), area, places.iter());
     let ratio = |&prefix: &u64| smallest_distance_ratio(&samples[..prefix as usize], area);
@@ -64,8 +78,23 @@ fn apart(surface: &Surface, map: &Map, prefixes: &[u64]) -> Apart {
     }
 }
 
-/// Writes the table below its heading.
-pub fn write_table(rows: &[Apart], text: &mut String) -> std::fmt::Result {
+/// Our roots, and the seconds that the fastest of some runs took.
+fn made(mesh: &Mesh, sampler: &RootSampler, count: u64) -> (f64, Vec<SurfacePoint>) {
+    let mut places = Vec::new();
+    let seconds = fastest(3, || {
+        let started = Instant::now();
+        let roots = BlueNoise::new(mesh, sampler, count);
+        let seconds = started.elapsed().as_secs_f64();
+        places.clear();
+        roots.roots(0..count, &mut places);
+        seconds
+    });
+    (seconds, places)
+}
+
+/// Writes the tables, each below its heading.
+pub fn write_tables(distances: &Distances, text: &mut String) -> std::fmt::Result {
+    let rows = &distances.maps;
     writeln!(text, "{HEADING}")?;
     let prefixes = rows.first().map_or(0, |row| row.ratios.len());
     let prefixes: Vec<String> = PREFIXES[..prefixes].iter().map(u64::to_string).collect();
@@ -75,5 +104,8 @@ pub fn write_table(rows: &[Apart], text: &mut String) -> std::fmt::Result {
         let ratios: Vec<String> = ratios.iter().map(|r| format!("{r:.2}")).collect();
         writeln!(text, "| {map} | {rate:.2} | {} |", ratios.join(" | "))?;
     }
-    Ok(())
+    match distances.peers.is_empty() {
+        true => Ok(()),
+        false => peers::write_table(&distances.peers, text),
+    }
 }
