@@ -20,7 +20,11 @@ fn measuring_writes_tables_plots_and_data_of_every_method() {
     let printed = pelage(&[
         "bench", "sampling", "--quick", "-o", &results, "--json", &data,
     ]);
-    for name in ["sampling-grid.svg", "sampling-rates.svg"] {
+    for name in [
+        "sampling-grid.svg",
+        "sampling-rates.svg",
+        "sampling-spectrum.svg",
+    ] {
         let plot = folder.bytes(&format!("results/{name}"));
         assert!(plot.starts_with(b"<svg"), "{name}");
     }

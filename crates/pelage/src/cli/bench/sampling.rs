@@ -170,7 +170,8 @@ impl Results {
         format!(
             "# Sampling\n\nMade by `pelage bench sampling -o docs/results --json \
             docs/results/sampling.json`, version {version}, {cores} cores.\n{PREFACE}\n{}\n\
-            ![Rates by map](sampling-rates.svg)\n\n![Rates by grid](sampling-grid.svg)\n",
+            ![Rates by map](sampling-rates.svg)\n\n![Rates by grid](sampling-grid.svg)\n\n\
+            ![Power spectra of roots](sampling-spectrum.svg)\n",
             self.tables()
         )
     }
@@ -326,6 +327,7 @@ impl Results {
                 .collect(),
         });
         Ok(vec![
+            ("sampling-spectrum.svg", self.distances.plot()?),
             (
                 "sampling-grid.svg",
                 logarithmic(

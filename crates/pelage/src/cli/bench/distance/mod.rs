@@ -1,12 +1,14 @@
 //! How fast roots that keep their distance are made, and how well they keep it.
 
 mod peers;
+mod spectrum;
 
 use super::maps::Map;
 use super::measure::{fastest, pool_of};
 use super::methods::sampler;
 use super::order::samples;
 use super::surfaces::Surface;
+use crate::cli::plot::Line;
 use anyhow::Result;
 use peers::Peer;
 use pelage::surface::quality::smallest_distance_ratio;
@@ -24,13 +26,15 @@ const HEADING: &str = "
 `BlueNoise` makes a million roots that keep their distance, at every prefix. Columns on the
 right have the smallest distance of two roots among the first so many, over the largest that
 so many could keep at the density there. Maps whose texels leap leave less of it: a root
-between two densities is too near by one of them.
+between two densities is too near by one of them. The radial power spectra below are those of
+2,048 roots on a square, means of 16 seeds: what keeps its distance has little power at
+frequencies below that of its spacing.
 ";
 
 /// How well roots keep their distance.
-#[derive(Clone, Debug)]
 pub struct Distances {
     maps: Vec<Apart>,
+    spectra: Vec<Line>,
     /// Beside other programs; empty where not asked for.
     peers: Vec<Peer>,
 }
@@ -57,6 +61,7 @@ pub fn measure(surface: &Surface, maps: &[Map], quick: bool) -> Result<Distances
     let pool = pool_of(1);
     Ok(Distances {
         maps: pool.install(by_map),
+        spectra: spectrum::measure(if quick { 1 } else { 16 }),
         peers: match quick {
             true => Vec::new(),
             false => pool.install(|| peers::measure(surface))?,
@@ -90,6 +95,13 @@ fn made(mesh: &Mesh, sampler: &RootSampler, count: u64) -> (f64, Vec<SurfacePoin
         seconds
     });
     (seconds, places)
+}
+
+impl Distances {
+    /// The plot of the spectra, as the text of an SVG file.
+    pub fn plot(&self) -> Result<String> {
+        spectrum::plot(&self.spectra)
+    }
 }
 
 /// Writes the tables, each below its heading.
