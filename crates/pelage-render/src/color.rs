@@ -1,4 +1,4 @@
-//! Linear RGB as vectors, tone curve and sRGB encoding.
+//! Linear RGB as vectors, and the tone curve.
 
 use glam::Vec3;
 
@@ -35,15 +35,6 @@ pub(crate) fn tone(c: Rgb) -> Rgb {
     (c * (rolled / peak)).lerp(Rgb::splat(rolled), faded)
 }
 
-/// IEC 61966-2-1 encoding of a component in 0..=1.
-pub(crate) fn srgb(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        12.92 * linear
-    } else {
-        1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -56,12 +47,5 @@ mod tests {
             assert!(shown > before && shown <= 1.0, "at {i}: {shown}");
             before = shown;
         }
-    }
-
-    #[test]
-    fn srgb_meets_the_values_of_the_standard() {
-        assert_eq!(srgb(0.0), 0.0);
-        assert!((srgb(1.0) - 1.0).abs() < 1e-6);
-        assert!((srgb(0.214_041_14) - 0.5).abs() < 1e-4);
     }
 }

@@ -5,6 +5,7 @@ use crate::color::{self, Rgb};
 use crate::sampling::{hash2, unit};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
+use pelage_surface::srgb_from_linear;
 use std::path::{Path, PathBuf};
 
 /// A finished picture.
@@ -28,7 +29,7 @@ impl Picture {
         let mut bytes = Vec::with_capacity(self.rgb.len() * 3);
         for (i, pixel) in self.rgb.iter().enumerate() {
             let dither = unit(hash2(i as u32, 0x51ed));
-            let encode = |c: f32| (color::srgb(c.clamp(0.0, 1.0)) * 255.0 + dither) as u8;
+            let encode = |c: f32| (srgb_from_linear(c.clamp(0.0, 1.0)) * 255.0 + dither) as u8;
             bytes.extend(pixel.map(encode));
         }
         bytes
@@ -36,7 +37,7 @@ impl Picture {
 
     /// Three big-endian 16-bit numbers a pixel, sRGB.
     fn to_rgb16(&self) -> Vec<u16> {
-        let encode = |c: f32| (color::srgb(c.clamp(0.0, 1.0)) * 65535.0 + 0.5) as u16;
+        let encode = |c: f32| (srgb_from_linear(c.clamp(0.0, 1.0)) * 65535.0 + 0.5) as u16;
         self.rgb.iter().flat_map(|p| p.map(encode)).collect()
     }
 

@@ -28,6 +28,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn srgb_meets_the_values_of_the_standard() {
+        assert_eq!(srgb_from_linear(0.0), 0.0);
+        assert!((srgb_from_linear(1.0) - 1.0).abs() < 1e-6);
+        assert!((srgb_from_linear(0.214_041_14) - 0.5).abs() < 1e-4);
+    }
+
+    #[test]
     fn srgb_and_back_is_the_identity() {
         for i in 0..=255 {
             let code = i as f32 / 255.0;
