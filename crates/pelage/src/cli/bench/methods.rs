@@ -40,6 +40,15 @@ pub fn sampler(mesh: &Mesh, map: &Map) -> RootSampler {
     RootSampler::new(mesh, &density, 1).expect("some density")
 }
 
+/// Our sampler of `mesh`, which must have an area, of even density.
+pub fn even_sampler(mesh: &Mesh, seed: u64) -> RootSampler {
+    let even = Density {
+        value: 1.0,
+        map: None,
+    };
+    RootSampler::new(mesh, &even, seed).expect("an area")
+}
+
 /// Where the share of each element begins, in fractions of 2^64: the sum to bisect.
 pub fn starts(distribution: &Distribution) -> Vec<u64> {
     (0..distribution.len())

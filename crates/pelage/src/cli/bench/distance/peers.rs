@@ -1,12 +1,12 @@
 //! Roots that keep their distance by other programs, where Python has them.
 
 use super::made;
+use crate::cli::bench::methods::even_sampler;
 use crate::cli::bench::python::answer;
 use crate::cli::bench::surfaces::Surface;
 use anyhow::Result;
 use pelage::curves::Vec3;
 use pelage::surface::quality::{Sample, smallest_distance_ratio};
-use pelage::surface::{Density, RootSampler};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
@@ -74,13 +74,7 @@ pub fn measure(surface: &Surface) -> Result<Vec<Peer>> {
 
 fn ours(surface: &Surface) -> Made {
     let mesh = &surface.mesh;
-    let even = Density {
-        value: 1.0,
-        map: None,
-    };
-    // Every surface of the tables has an area.
-    let sampler = RootSampler::new(mesh, &even, 1).expect("some density");
-    let (seconds, places) = made(mesh, &sampler, ROOTS);
+    let (seconds, places) = made(mesh, &even_sampler(mesh, 1), ROOTS);
     let position = |place| mesh.position(place).to_array();
     Made {
         program: "Pelage".into(),

@@ -1,9 +1,10 @@
 //! Radial power spectra: how evenly roots lie, by distance (Ulichney 1987).
 
+use crate::cli::bench::methods::even_sampler;
 use crate::cli::plot::{Axes, Line, linear};
 use anyhow::Result;
 use pelage::surface::quality::radial_power_spectrum;
-use pelage::surface::{BlueNoise, Density, Mesh, PolygonMesh, RootSampler, Spread, SurfacePoint};
+use pelage::surface::{BlueNoise, Mesh, PolygonMesh, RootSampler, Spread, SurfacePoint};
 
 /// Roots on the square, and how many of them are the first part that is looked at, too.
 const ROOTS: u64 = 2048;
@@ -18,48 +19,41 @@ pub fn measure(seeds: u64) -> Vec<Line> {
     let square = PolygonMesh::sheet(1, 1, |u, v| [u, v, 0.0]);
     // The grid has a face, and the formula gives numbers.
     let square = &Mesh::new(square).expect("a grid is a mesh");
-    let line = |name: &str, count, roots: &dyn Fn(RootSampler) -> Vec<SurfacePoint>| Line {
-        name: name.into(),
-        points: mean(seeds, |seed| {
-            spectrum(square, roots(sampler(square, seed)), count)
-        }),
+    let line = |name: &str, count, draw: &dyn Fn(RootSampler, u64) -> Vec<SurfacePoint>| {
+        let roots = |seed| draw(even_sampler(square, seed), count);
+        Line {
+            name: name.into(),
+            points: mean(seeds, |seed| spectrum(square, &roots(seed))),
+        }
     };
     let drawn = |spread| {
-        move |sampler: RootSampler| {
+        move |sampler: RootSampler, count| {
             let mut roots = Vec::new();
-            sampler.with_spread(spread).roots(0..ROOTS, &mut roots);
+            sampler.with_spread(spread).roots(0..count, &mut roots);
             roots
         }
     };
-    let apart = |sampler: RootSampler| {
+    let apart = |sampler: RootSampler, count| {
         let mut roots = Vec::new();
-        BlueNoise::new(square, &sampler, ROOTS).roots(0..ROOTS, &mut roots);
+        BlueNoise::new(square, &sampler, count).roots(0..count, &mut roots);
         roots
     };
     vec![
         line("random", ROOTS, &drawn(Spread::Random)),
         line("stratified", ROOTS, &drawn(Spread::Stratified)),
         line("blue noise", ROOTS, &apart),
+        // More roots begin with the same ones.
         line("the first quarter of it", FIRST, &apart),
     ]
 }
 
-fn sampler(square: &Mesh, seed: u64) -> RootSampler {
-    let even = Density {
-        value: 1.0,
-        map: None,
-    };
-    RootSampler::new(square, &even, seed).expect("a square has an area")
-}
-
-/// Of the first `count` of `roots`.
-fn spectrum(square: &Mesh, roots: Vec<SurfacePoint>, count: u64) -> Vec<(f64, f64)> {
-    let flat = roots.iter().take(count as usize).map(|root| {
+fn spectrum(square: &Mesh, roots: &[SurfacePoint]) -> Vec<(f64, f64)> {
+    let flat = roots.iter().map(|root| {
         let place = square.position(root);
         [place.x as f64, place.y as f64]
     });
     let points: Vec<[f64; 2]> = flat.collect();
-    let unit = (count as f64).sqrt();
+    let unit = (points.len() as f64).sqrt();
     let mut spectrum = radial_power_spectrum(&points, (HIGHEST * unit) as usize);
     spectrum
         .iter_mut()
