@@ -185,11 +185,11 @@ def write_usdz():
     layer = mesh().encode()
     crate = Path("../reference/meshes.usdc").read_bytes()
 
-    def write(name, *entries, **options):
-        with zipfile.ZipFile(f"usdz/{name}.usdz", "w", **options) as archive:
+    def write(name, *entries, compression=zipfile.ZIP_STORED):
+        with zipfile.ZipFile(f"usdz/{name}.usdz", "w") as archive:
             for entry, data in entries:
                 # Always the same time, for always the same bytes.
-                archive.writestr(zipfile.ZipInfo(entry), data, options.get("compression"))
+                archive.writestr(zipfile.ZipInfo(entry), data, compression)
 
     def refers(to):
         return (HEADER + f'(\n defaultPrim = "a"\n)\ndef "a" (references = @{to}@) {{}}\n').encode()
